@@ -1,0 +1,37 @@
+# Compiler caching, sanitizers and the one function that sets warnings.
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+if(ARTICAP_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+# Fuzzers need every object instrumented for coverage, not only the target's own.
+if(ARTICAP_BUILD_FUZZERS)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+# Warnings of articap's own targets; other people's headers are included as SYSTEM.
+function(articap_target_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                         -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
+  if(ARTICAP_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# One library target a folder: articap_<folder>, exported as articap::<folder>.
+function(articap_add_library folder)
+  add_library(articap_${folder} ${ARGN})
+  add_library(articap::${folder} ALIAS articap_${folder})
+  set_target_properties(articap_${folder} PROPERTIES EXPORT_NAME ${folder})
+  target_include_directories(articap_${folder} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/articap>)
+  articap_target_warnings(articap_${folder})
+endfunction()
