@@ -29,19 +29,19 @@ std::string DescribeComparison(const char* expression, const A& a, const B& b) {
 }  // namespace internal
 }  // namespace articap
 
-#define ARTICAP_CHECK(condition)                                                  \
-  do {                                                                            \
+#define ARTICAP_CHECK(condition)                                                       \
+  do {                                                                                 \
     if (!(condition)) ::articap::internal::ThrowCheck(__FILE__, __LINE__, #condition); \
   } while (false)
 
-#define ARTICAP_CHECK_OP(op, a, b)                                                             \
-  do {                                                                                         \
-    const auto& check_a = (a);                                                                 \
-    const auto& check_b = (b);                                                                 \
-    if (!(check_a op check_b))                                                                 \
-      ::articap::internal::ThrowCheck(                                                         \
-          __FILE__, __LINE__,                                                                  \
-          ::articap::internal::DescribeComparison(#a " " #op " " #b, check_a, check_b));       \
+#define ARTICAP_CHECK_OP(op, a, b)                                                       \
+  do {                                                                                   \
+    const auto& check_a = (a);                                                           \
+    const auto& check_b = (b);                                                           \
+    if (!(check_a op check_b))                                                           \
+      ::articap::internal::ThrowCheck(                                                   \
+          __FILE__, __LINE__,                                                            \
+          ::articap::internal::DescribeComparison(#a " " #op " " #b, check_a, check_b)); \
   } while (false)
 
 #define ARTICAP_CHECK_EQ(a, b) ARTICAP_CHECK_OP(==, a, b)

@@ -6,8 +6,8 @@
 
 namespace articap {
 
-// A triangle mesh in one frame, lengths in mm. Triangles wind counter-clockwise seen from outside, so
-// that (v2 - v1) x (v3 - v1) points outwards.
+// A triangle mesh in one frame, lengths in mm. Triangles wind counter-clockwise seen from outside,
+// so that (v2 - v1) x (v3 - v1) points outwards.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;

@@ -7,9 +7,9 @@
 
 namespace articap {
 
-// A failure of the world (a file, a device, a user's choice). The message says what was found, where
-// (file, line, frame, marker), and what to do about it. Bugs are ARTICAP_CHECKs; numerical outcomes
-// are fields of a StageReport.
+// A failure of the world (a file, a device, a user's choice). The message says what was found,
+// where (file, line, frame, marker), and what to do about it. Bugs are ARTICAP_CHECKs; numerical
+// outcomes are fields of a StageReport.
 struct Error {
   std::string message;
 };

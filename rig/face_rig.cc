@@ -90,8 +90,8 @@ std::optional<std::string> FindFault(const RigDefinition& rig) {
     if (!IsIndex(rig.jaw->weight_map, rig.weight_maps.size()) ||
         !IsIndex(rig.jaw->pivot_vertex, num_vertices))
       return "the jaw has no weight map or no pivot";
-    for (const int parameter : {rig.jaw->rotation_parameter, rig.jaw->thrust_parameter,
-                                rig.jaw->shift_parameter})
+    for (const int parameter :
+         {rig.jaw->rotation_parameter, rig.jaw->thrust_parameter, rig.jaw->shift_parameter})
       if (parameter != -1 && !IsIndex(parameter, rig.parameters.size()))
         return "the jaw names a parameter that does not exist";
   }
@@ -194,9 +194,8 @@ std::vector<Eigen::Vector3d> FaceRig::Evaluate(const Eigen::VectorXd& parameters
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(ValueOr0(parameters, jaw.rotation_parameter), jaw.axis).toRotationMatrix() -
       Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d slide =
-      ValueOr0(parameters, jaw.thrust_parameter) * jaw.thrust_direction +
-      ValueOr0(parameters, jaw.shift_parameter) * jaw.shift_direction;
+  const Eigen::Vector3d slide = ValueOr0(parameters, jaw.thrust_parameter) * jaw.thrust_direction +
+                                ValueOr0(parameters, jaw.shift_parameter) * jaw.shift_direction;
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (weights[i] > 0) vertices[i] += weights[i] * (turn * (vertices[i] - pivot) + slide);
   return vertices;

@@ -13,8 +13,9 @@
 
 namespace articap {
 
-// The rig frame: mm; x to the speaker's left, y up, z forward; the origin lies between the ears (for
-// the default head: midway between the tragia). "Left" is always the speaker's left, at positive x.
+// The rig frame: mm; x to the speaker's left, y up, z forward; the origin lies between the ears
+// (for the default head: midway between the tragia). "Left" is always the speaker's left, at
+// positive x.
 
 enum class ParameterUnit : std::uint8_t {
   kRadian,      // rotations
@@ -32,8 +33,8 @@ struct RigParameter {
   std::string source;       // where the range comes from
 };
 
-// A named point of the face at a vertex; the names are the vocabulary of docs/landmarks.md, shared by
-// all rigs. A landmark may be a pivot inside the head: a vertex without triangles.
+// A named point of the face at a vertex; the names are the vocabulary of docs/landmarks.md, shared
+// by all rigs. A landmark may be a pivot inside the head: a vertex without triangles.
 struct Landmark {
   std::string name;
   int vertex = 0;
@@ -45,8 +46,8 @@ struct WeightMap {
   std::vector<double> weights;
 };
 
-// One weighted geometric transform (Parke 1974; Beskow 1997): with y the value of the parameter, w the
-// weight and p the neutral position of a vertex,
+// One weighted geometric transform (Parke 1974; Beskow 1997): with y the value of the parameter, w
+// the weight and p the neutral position of a vertex,
 //   translate: p += w y vector                   vector: mm per unit of the parameter
 //   scale:     p += w y diag(vector) (p - pivot) vector: relative change per unit of the parameter
 // Several transforms may belong to one parameter; their displacements add up.
@@ -112,16 +113,16 @@ struct RigDefinition {
   std::vector<IdentitySlider> identity_sliders;
 };
 
-// A talking head that can be posed. Both back-ends, weighted transforms and linear morphs, come down to
-// one form: a displacement per parameter and vertex, then at most one jaw joint, so that there is one
-// evaluator and one Jacobian.
+// A talking head that can be posed. Both back-ends, weighted transforms and linear morphs, come
+// down to one form: a displacement per parameter and vertex, then at most one jaw joint, so that
+// there is one evaluator and one Jacobian.
 class FaceRig {
  public:
   // Refuses definitions whose tables disagree in size or point outside one another.
   static Result<FaceRig> Create(RigDefinition definition);
 
-  // The same rig with other identity sliders (values in the order of identity_sliders, all of them):
-  // the neutral mesh moves, and all that depends on it follows.
+  // The same rig with other identity sliders (values in the order of identity_sliders, all of
+  // them): the neutral mesh moves, and all that depends on it follows.
   FaceRig WithIdentity(const Eigen::VectorXd& sliders) const;
 
   const RigDefinition& definition() const { return definition_; }
