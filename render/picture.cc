@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 
 #include "core/check.h"
+#include "core/file_io.h"
 
 namespace articap {
 
@@ -36,9 +36,8 @@ Picture EncodeSrgb(const LinearPicture& linear) {
   return picture;
 }
 
-Result<void> WritePng(const Picture& picture, const std::filesystem::path& path) {
-  ARTICAP_CHECK_GT(picture.width, 0);
-  ARTICAP_CHECK_GT(picture.height, 0);
+Result<std::string> EncodePng(const Picture& picture) {
+  ARTICAP_CHECK(picture.width > 0 && picture.height > 0);
   ARTICAP_CHECK_EQ(picture.rgb8.size(),
                    3 * static_cast<std::size_t>(picture.width) * picture.height);
   png_image image{};
@@ -46,36 +45,41 @@ Result<void> WritePng(const Picture& picture, const std::filesystem::path& path)
   image.width = static_cast<png_uint_32>(picture.width);
   image.height = static_cast<png_uint_32>(picture.height);
   image.format = PNG_FORMAT_RGB;
-  std::filesystem::path partial = path;
-  partial += ".partial";
-  std::error_code error;
-  if (png_image_write_to_file(&image, partial.c_str(), 0, picture.rgb8.data(), 0, nullptr) == 0) {
-    std::filesystem::remove(partial, error);
-    return Fail(
-        fmt::format("cannot write the picture {}: {}; check that the folder exists and is "
-                    "writable",
-                    path.string(), image.message));
-  }
-  std::filesystem::rename(partial, path, error);
-  if (error) {
-    const std::string reason = error.message();
-    std::filesystem::remove(partial, error);
-    return Fail(fmt::format("cannot write the picture {}: {}", path.string(), reason));
-  }
-  return {};
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.rgb8.data(), 0, nullptr) ==
+      0)
+    return Fail(fmt::format("a picture of {} x {} pixels cannot become a PNG: {}", picture.width,
+                            picture.height, image.message));
+  bytes.resize(size);
+  return bytes;
 }
 
-Result<Picture> ReadPng(const std::filesystem::path& path) {
+Result<void> WritePng(const Picture& picture, const std::filesystem::path& path) {
+  const auto bytes = EncodePng(picture);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return WriteFile(path, *bytes);
+}
+
+Result<Picture> DecodePng(std::string_view bytes) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&image, path.c_str()) == 0)
-    return Fail(fmt::format("cannot read the picture {}: {}", path.string(), image.message));
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0)
+    return Fail(fmt::format("not a PNG that can be read: {}", image.message));
   image.format = PNG_FORMAT_RGB;
   Picture picture{static_cast<int>(image.width), static_cast<int>(image.height), {}};
   picture.rgb8.resize(PNG_IMAGE_SIZE(image));
   const png_color black{0, 0, 0};
   if (png_image_finish_read(&image, &black, picture.rgb8.data(), 0, nullptr) == 0)
-    return Fail(fmt::format("cannot read the picture {}: {}", path.string(), image.message));
+    return Fail(fmt::format("the PNG is damaged: {}", image.message));
+  return picture;
+}
+
+Result<Picture> ReadPng(const std::filesystem::path& path) {
+  const auto bytes = ReadFile(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto picture = DecodePng(*bytes);
+  if (!picture) return Fail(fmt::format("{}: {}", path.string(), picture.error().message));
   return picture;
 }
 

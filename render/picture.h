@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
@@ -37,10 +39,12 @@ Picture FilledPicture(int width, int height, const Eigen::Vector3f& linear_color
 std::uint8_t SrgbByte(float linear);
 Picture EncodeSrgb(const LinearPicture& linear);
 
-// Writes the file in one go: nothing is left behind where it fails.
+// The bytes of a PNG file.
+Result<std::string> EncodePng(const Picture& picture);
 Result<void> WritePng(const Picture& picture, const std::filesystem::path& path);
 
-// Reads any PNG as 8-bit RGB; an alpha channel is dropped.
+// Any PNG as 8-bit RGB; an alpha channel is laid over black.
+Result<Picture> DecodePng(std::string_view bytes);
 Result<Picture> ReadPng(const std::filesystem::path& path);
 
 }  // namespace articap

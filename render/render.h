@@ -24,7 +24,7 @@ struct RenderMesh {
   TriangleMesh mesh;
   std::vector<Eigen::Vector3f> colors;   // linear RGB albedo of every vertex
   std::vector<Eigen::Vector3d> normals;  // unit, one a vertex; empty: VertexNormals(mesh)
-  Material material;
+  Material material = {};
 };
 
 // A marker, or a dot over a landmark.
@@ -32,7 +32,7 @@ struct RenderSphere {
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
   double radius_mm = 1;
   Eigen::Vector3f color = Eigen::Vector3f::Ones();  // linear RGB
-  Material material;
+  Material material = {};
 };
 
 // A lamp so far away that its rays are parallel, with the size of its disc.

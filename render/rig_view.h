@@ -14,7 +14,7 @@ struct RigViewOptions {
   bool show_spectacles = true;  // the part "spectacles", where the rig has one
   bool show_landmarks = false;  // a red dot at every landmark
   double landmark_radius_mm = 1.2;
-  std::vector<RenderSphere> markers;  // measured or virtual markers, mm, rig frame
+  std::vector<RenderSphere> markers = {};  // measured or virtual markers, mm, rig frame
 };
 
 // A pose of the rig, lit for a portrait; each part has smooth normals of its own.
