@@ -31,6 +31,11 @@ class ShapeSolver {
   ShapeSolver(const VirtualMarkerEvaluator& evaluator, Eigen::VectorXd lower, Eigen::VectorXd upper,
               const ShapeSolverOptions& options = {});
 
+  void SetBounds(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+    lower_ = lower;
+    upper_ = upper;
+  }
+
   // From *parameters, which is first brought into the box, to the minimum.
   ShapeSolution Solve(MarkerPositions measured_in_rig, Eigen::VectorXd* parameters);
 

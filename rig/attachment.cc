@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "rig/attachment.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -24,6 +27,32 @@ std::optional<int> RegionOfVertex(const FaceRig& rig, int vertex) {
   return std::max_element(votes.begin(), votes.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
+}
+
+std::optional<int> RegionOfTriangle(const FaceRig& rig, const Eigen::Vector3i& triangle) {
+  const auto& triangles = rig.neutral_mesh().triangles;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (std::is_permutation(triangles[i].data(), triangles[i].data() + 3, triangle.data()))
+      return rig.definition().triangle_region[i];
+  return std::nullopt;
+}
+
+std::optional<std::string> FaultOfVirtualMarkers(const std::vector<VirtualMarker>& markers,
+                                                 const FaceRig& rig) {
+  for (const VirtualMarker& marker : markers) {
+    for (const int vertex : {marker.triangle[0], marker.triangle[1], marker.triangle[2]})
+      if (vertex < 0 || vertex >= rig.num_vertices())
+        return fmt::format("the virtual marker '{}' names vertex {} of {}", marker.name, vertex,
+                           rig.num_vertices());
+    if (!RegionOfTriangle(rig, marker.triangle))
+      return fmt::format(
+          "the rig has no triangle of the vertices {}, {}, {}, which the virtual "
+          "marker '{}' is tied to",
+          marker.triangle[0], marker.triangle[1], marker.triangle[2], marker.name);
+    if (!std::isfinite(marker.s) || !std::isfinite(marker.t) || !std::isfinite(marker.u_mm))
+      return fmt::format("the coordinates of the virtual marker '{}' are not finite", marker.name);
+  }
+  return std::nullopt;
 }
 
 Eigen::Vector3d ClosestPointOfTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,

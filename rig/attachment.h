@@ -14,6 +14,14 @@ namespace articap {
 // The region that most triangles around a vertex belong to; nothing for a vertex without triangles.
 std::optional<int> RegionOfVertex(const FaceRig& rig, int vertex);
 
+// Region of a triangle, given by its vertices in any order; nothing where the mesh has none such.
+std::optional<int> RegionOfTriangle(const FaceRig& rig, const Eigen::Vector3i& triangle);
+
+// Why virtual markers cannot be evaluated on a rig (vertices that it does not have, a corner that
+// is not on the surface, coordinates that are not finite); nothing where they can.
+std::optional<std::string> FaultOfVirtualMarkers(const std::vector<VirtualMarker>& markers,
+                                                 const FaceRig& rig);
+
 // Ties points to the surface of a rig in a pose, so that the virtual marker lies exactly on the
 // point.
 class Attacher {

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#include "fitting/fit.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fitting/bind.h"
+#include "fitting/determination.h"
+#include "fitting/fit_report.h"
+#include "fitting/frame_fits.h"
+#include "fitting/refinement.h"
+#include "fitting/smoothing.h"
+#include "rig/attachment.h"
+
+namespace articap {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Median length of a vector of three normal deviates, in their sigmas.
+constexpr double kMedianLength = 1.5382;
+
+// The spatial median of three-dimensional normal noise needs 3 pi / 8 times the variance of the
+// mean (Brown 1983).
+const double kDistanceInefficiency = std::sqrt(3 * M_PI / 8);
+
+// How far refinement may move a marker on the rig, mm: the error of attaching one face to another.
+constexpr double kRefinementPrior_mm = 4;
+constexpr int kRefinementRounds = 4;
+
+struct FaceMarkers {
+  std::vector<VirtualMarker> markers;
+  std::vector<int> columns;  // of the take's tracks
+};
+
+// The binding's virtual markers that the take has.
+FaceMarkers MatchMarkers(const HeadTracks& tracks, const Binding& binding, StageReport* report) {
+  FaceMarkers face;
+  std::vector<std::string> absent;
+  for (const VirtualMarker& marker : binding.virtual_markers) {
+    const auto column = tracks.Find(marker.name);
+    if (column && tracks.CountMissing(*column) < tracks.num_frames()) {
+      face.markers.push_back(marker);
+      face.columns.push_back(*column);
+    } else {
+      absent.push_back(marker.name);
+    }
+  }
+  if (!absent.empty())
+    report->warnings.push_back(fmt::format(
+        "face markers of the binding that this take does not have: {}", fmt::join(absent, ", ")));
+  return face;
+}
+
+RigTracks MeasuredInRig(const HeadTracks& tracks, const FaceMarkers& face,
+                        const Sim3d& rig_from_head) {
+  std::vector<std::string> names;
+  for (const VirtualMarker& marker : face.markers) names.push_back(marker.name);
+  HeadTracks chosen(names, tracks.num_frames(), tracks.rate_hz(), tracks.first_frame(),
+                    tracks.start());
+  for (int frame = 0; frame < tracks.num_frames(); ++frame)
+    for (std::size_t i = 0; i < face.columns.size(); ++i)
+      if (const int column = face.columns[i]; !tracks.is_missing(frame, column))
+        chosen.Set(frame, static_cast<int>(i), tracks.position_mm(frame, column),
+                   tracks.state(frame, column), tracks.sigma_mm(frame, column));
+  return AlignToRig(chosen, rig_from_head);
+}
+
+// Ranges of the parameters, and the bounds within which they are fitted.
+struct Box {
+  Eigen::VectorXd ranges, lower, upper;
+};
+
+Box BoxOf(const FaceRig& rig, bool bounded) {
+  const int size = rig.num_parameters();
+  Box box{Eigen::VectorXd(size), Eigen::VectorXd(size), Eigen::VectorXd(size)};
+  for (int k = 0; k < size; ++k) {
+    const RigParameter& parameter = rig.definition().parameters[k];
+    box.ranges[k] = parameter.max - parameter.min;
+    box.lower[k] = bounded ? parameter.min : -kInfinity;
+    box.upper[k] = bounded ? parameter.max : kInfinity;
+  }
+  return box;
+}
+
+void NoteUndetermined(const FaceRig& rig, const Determination& determination,
+                      const std::vector<bool>& determined, const FitOptions& options,
+                      StageReport* report) {
+  const Eigen::VectorXd sigmas = determination.Sigmas();
+  std::vector<std::string> held, kept;
+  for (int k = 0; k < rig.num_parameters(); ++k) {
+    const RigParameter& parameter = rig.definition().parameters[k];
+    (determined[k] ? kept : held).push_back(parameter.name);
+    if (determined[k]) continue;
+    const double part = sigmas[k] / (parameter.max - parameter.min);
+    report->warnings.push_back(fmt::format(
+        "{} is not determined by these markers ({}) and is held at the reference", parameter.name,
+        part < 100 ? fmt::format("its standard deviation would be {:.0f} % of its range, above "
+                                 "{:.0f} %",
+                                 100 * part, 100 * options.max_sigma_of_range)
+                   : "none of them tells it apart"));
+  }
+  report->texts.emplace_back("determined", fmt::format("{}", fmt::join(kept, ", ")));
+  report->texts.emplace_back("held", fmt::format("{}", fmt::join(held, ", ")));
+}
+
+// Frames spread evenly over the take.
+std::vector<int> SpreadFrames(int num_frames, int wanted) {
+  std::vector<int> frames;
+  const int count = std::min(num_frames, wanted);
+  for (int i = 0; i < count; ++i)
+    frames.push_back(static_cast<int>((2LL * i + 1) * num_frames / (2LL * count)));
+  return frames;
+}
+
+RigTracks VirtualMarkerTracks(const RigTracks& measured, const FrameFits& fits) {
+  RigTracks tracks(measured.names(), measured.num_frames(), measured.rate_hz(),
+                   measured.first_frame(), measured.start());
+  for (int frame = 0; frame < measured.num_frames(); ++frame)
+    for (int marker = 0; marker < measured.num_markers(); ++marker) {
+      const Eigen::Vector3d position = fits.positions_mm.row(frame).segment<3>(3 * marker);
+      if (position.allFinite()) tracks.Set(frame, marker, position);
+    }
+  return tracks;
+}
+
+// |q - p| in mm of the speaker, frames x markers.
+Eigen::MatrixXf Residuals(const RigTracks& measured, const RigTracks& virtual_markers,
+                          double rig_scale) {
+  Eigen::MatrixXf residuals = Eigen::MatrixXf::Constant(
+      measured.num_frames(), measured.num_markers(), std::numeric_limits<float>::quiet_NaN());
+  for (int frame = 0; frame < measured.num_frames(); ++frame)
+    for (int marker = 0; marker < measured.num_markers(); ++marker)
+      if (!measured.is_missing(frame, marker) && !virtual_markers.is_missing(frame, marker))
+        residuals(frame, marker) = static_cast<float>(
+            (virtual_markers.position_mm(frame, marker) - measured.position_mm(frame, marker))
+                .norm() /
+            rig_scale);
+  return residuals;
+}
+
+// Standard deviation of a marker's coordinate, mm of the speaker, from the median residual and the
+// degrees of freedom that the parameters took.
+double MarkerSigma_mm(const Eigen::MatrixXf& residuals_mm, int num_free) {
+  std::vector<float> lengths;
+  for (Eigen::Index i = 0; i < residuals_mm.size(); ++i)
+    if (std::isfinite(residuals_mm.data()[i])) lengths.push_back(residuals_mm.data()[i]);
+  if (lengths.empty()) return kNaN;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  const double numbers = 3 * static_cast<double>(residuals_mm.cols());
+  const double freedom = std::max(1.0, numbers - num_free);
+  return *middle / kMedianLength * std::sqrt(numbers / freedom);
+}
+
+const char* UnitName(ParameterUnit unit) {
+  switch (unit) {
+    case ParameterUnit::kRadian:
+      return "rad";
+    case ParameterUnit::kMillimetre:
+      return "mm";
+    case ParameterUnit::kWeight:
+      break;
+  }
+  return "1";
+}
+
+ParameterTrack TrackOf(const FaceRig& rig, const RigTracks& measured, const FrameFits& fits,
+                       const Eigen::MatrixXf& residuals_mm, double sigma_per_unit) {
+  ParameterTrack track;
+  for (const RigParameter& parameter : rig.definition().parameters) {
+    track.names.push_back(parameter.name);
+    track.units.push_back(UnitName(parameter.unit));
+  }
+  track.rate_hz = measured.rate_hz();
+  track.first_frame = measured.first_frame();
+  track.start = measured.start();
+  track.values = fits.parameters;
+  track.sigmas = sigma_per_unit * fits.unit_sigmas;
+  track.statuses = fits.statuses;
+  for (Eigen::Index frame = 0; frame < residuals_mm.rows(); ++frame) {
+    double sum = 0;
+    int count = 0;
+    for (Eigen::Index marker = 0; marker < residuals_mm.cols(); ++marker)
+      if (std::isfinite(residuals_mm(frame, marker))) {
+        sum += residuals_mm(frame, marker);
+        ++count;
+      }
+    track.residuals_mm.push_back(count == 0 ? kNaN : sum / count);
+  }
+  return track;
+}
+
+std::vector<bool> MouthOrChin(const FaceRig& rig, const std::vector<VirtualMarker>& markers) {
+  std::vector<bool> is_mouth_or_chin;
+  for (const VirtualMarker& marker : markers) {
+    const auto region = RegionOfTriangle(rig, marker.triangle);
+    const std::string name = region ? rig.definition().region_names[*region] : "";
+    is_mouth_or_chin.push_back(name == "upper_lip" || name == "lower_lip" || name == "jaw");
+  }
+  return is_mouth_or_chin;
+}
+
+// Prior weights on second differences; see FitOptions::smoothing_s.
+Eigen::VectorXd SmoothingWeights(const FitOptions& options, const Eigen::VectorXd& ranges,
+                                 double rate_hz, double sigma_rig_mm) {
+  // An acceleration of one range per smoothing_s^2, as a second difference of frames.
+  const double frames = options.smoothing_s * rate_hz;
+  const Eigen::VectorXd typical = ranges / (frames * frames);
+  const double cost =
+      options.metric == FitMetric::kDistance ? 0.5 * sigma_rig_mm : sigma_rig_mm * sigma_rig_mm;
+  return cost * typical.array().square().inverse();
+}
+
+std::string VerdictOf(const ShapeFit& fit, const ExplainedVariance& explained, int num_determined) {
+  int fitted = 0;
+  for (const double residual : fit.parameters.residuals_mm) fitted += std::isfinite(residual);
+  if (fitted == 0)
+    return "not usable: no frame could be fitted; see the head stabilisation's report";
+  return fmt::format(
+      "{} of {} frames fitted with {} of {} parameters; the rig explains {:.1f} % of the movement "
+      "of mouth and chin",
+      fitted, fit.parameters.num_frames(), num_determined, fit.parameters.num_parameters(),
+      100 * explained.mouth_and_chin);
+}
+
+}  // namespace
+
+void VisitOptions(FitOptions& options, OptionVisitor& visit) {
+  visit.Enumeration("metric", options.metric, {"distance", "squared", "huber"},
+                    "what a marker's residual costs; distance is the paper's");
+  visit("epsilon_mm", options.epsilon_mm, "smooths the distance at zero; mm of the rig");
+  visit("huber_mm", options.huber_mm, "where the Huber metric turns linear; mm of the rig");
+  visit.Enumeration("solver", options.solver, {"fast", "ceres"},
+                    "fast, or Ceres, its reference, a hundred times slower");
+  visit("bounded", options.bounded, "keep parameters within the rig's ranges");
+  visit("marker_sigma_mm", options.marker_sigma_mm,
+        "noise of a marker's coordinate that decides which parameters are determined; mm");
+  visit("max_sigma_of_range", options.max_sigma_of_range,
+        "parameters less certain than this part of their range are held at the reference");
+  visit("smoothing_s", options.smoothing_s,
+        "prior on smooth trajectories: accelerations of one range per this time squared are usual; "
+        "0: none; s");
+  visit("refine_frames", options.refine_frames,
+        "refine where the markers sit on the rig from this many frames; 0: not");
+  visit("threads", options.threads, "threads; 0: one a processor; the result is the same");
+}
+
+Result<StageResult<ShapeFit>> Fit(const HeadTracks& tracks, const Binding& binding,
+                                  const FaceRig& rig, const FitOptions& options,
+                                  const BindingFrames& binding_frames,
+                                  const std::function<void(double part)>& progress) {
+  StageReport report{.stage = "fit", .options = EchoOptions(options)};
+  const auto own_rig = RigOfBinding(binding, rig);
+  if (!own_rig) return tl::unexpected(own_rig.error());
+  const auto reference = ReferenceParameters(binding, rig);
+  if (!reference) return tl::unexpected(reference.error());
+  if (const auto fault = FaultOfVirtualMarkers(binding.virtual_markers, *own_rig))
+    return Fail(
+        fmt::format("the binding does not fit the rig '{}': {}; use the rig that it was made "
+                    "with, or bind again",
+                    rig.definition().name, *fault));
+  FaceMarkers face = MatchMarkers(tracks, binding, &report);
+  if (face.markers.empty())
+    return Fail(
+        "the take has none of the binding's face markers; check that it is of the same "
+        "marker set");
+
+  const RigTracks measured = MeasuredInRig(tracks, face, binding.rig_from_head);
+  const Box box = BoxOf(*own_rig, options.bounded);
+  const double scale = binding.rig_from_head.scale;
+  const MarkerLoss loss{options.metric, options.epsilon_mm, options.huber_mm};
+  std::vector<bool> judged(measured.num_frames());
+  for (int frame = 0; frame < measured.num_frames(); ++frame)
+    judged[frame] = !binding_frames.Contains(measured.first_frame() + frame);
+
+  const auto fit_frames = [&](const std::vector<VirtualMarker>& markers, const RigTracks& frames,
+                              std::vector<bool>* determined, bool final) {
+    const VirtualMarkerEvaluator evaluator(*own_rig, markers);
+    const Determination determination(evaluator, *reference, box.ranges,
+                                      scale * options.marker_sigma_mm, options.max_sigma_of_range);
+    const auto all_seen = std::make_unique<bool[]>(markers.size());
+    std::fill_n(all_seen.get(), markers.size(), true);
+    *determined = determination.Determined({all_seen.get(), markers.size()});
+    if (final) NoteUndetermined(*own_rig, determination, *determined, options, &report);
+    const FrameFitSetup setup{evaluator,   determination, *reference,     box.lower,      box.upper,
+                              *determined, loss,          options.solver, options.threads};
+    FrameFits fits = FitFrames(frames, setup, final ? progress : nullptr);
+    if (final && options.smoothing_s > 0) {
+      const int steps = SmoothFits(
+          frames, setup,
+          SmoothingWeights(options, box.ranges, frames.rate_hz(), scale * options.marker_sigma_mm),
+          &fits);
+      EvaluateFits(frames, setup, &fits);
+      report.figures.emplace_back("smoothing_steps", steps);
+    }
+    return fits;
+  };
+
+  std::vector<bool> determined;
+  if (options.refine_frames > 0) {
+    const std::vector<int> chosen = SpreadFrames(measured.num_frames(), options.refine_frames);
+    for (const int frame : chosen) judged[frame] = false;
+    for (int round = 0; round < kRefinementRounds; ++round) {
+      const FrameFits fits = fit_frames(face.markers, measured, &determined, false);
+      face.markers = RefineAttachments(*own_rig, face.markers, measured, chosen, fits.parameters,
+                                       scale * kRefinementPrior_mm);
+    }
+    report.figures.emplace_back("refined_from_frames", static_cast<double>(chosen.size()));
+  }
+  const FrameFits fits = fit_frames(face.markers, measured, &determined, true);
+
+  const int num_determined =
+      static_cast<int>(std::count(determined.begin(), determined.end(), true));
+  ShapeFit fit{.parameters = {},
+               .measured = measured,
+               .virtual_markers = VirtualMarkerTracks(measured, fits),
+               .residuals_mm = {}};
+  fit.residuals_mm = Residuals(measured, fit.virtual_markers, scale);
+  const double sigma_mm = MarkerSigma_mm(fit.residuals_mm, num_determined);
+  const double inefficiency = options.metric == FitMetric::kDistance ? kDistanceInefficiency : 1;
+  fit.parameters =
+      TrackOf(*own_rig, measured, fits, fit.residuals_mm, inefficiency * scale * sigma_mm);
+  report.figures.emplace_back("marker_sigma_mm", sigma_mm);
+  report.figures.emplace_back("evaluations_per_frame", static_cast<double>(fits.evaluations) /
+                                                           std::max(1, measured.num_frames()));
+  const ExplainedVariance explained =
+      ExplainVariance(fit, judged, MouthOrChin(*own_rig, face.markers));
+  DescribeFit(fit, *own_rig, determined, explained, &report);
+  report.verdict = VerdictOf(fit, explained, num_determined);
+  report.usable = report.verdict.rfind("not usable", 0) != 0;
+  return StageResult<ShapeFit>{std::move(fit), std::move(report)};
+}
+
+}  // namespace articap

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "fitting/fit_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace articap {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// A parameter that rests at a bound for more than this part of the take deserves a word.
+constexpr double kOftenAtBound = 0.05;
+
+double Percentile(std::vector<double> values, double part) {
+  if (values.empty()) return kNaN;
+  const auto at = values.begin() + std::lround(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+double Mean(const std::vector<double>& values) {
+  if (values.empty()) return kNaN;
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double RootMeanSquare(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return values.empty() ? kNaN : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+ReportTable ParameterTable(const ShapeFit& fit, const FaceRig& rig,
+                           const std::vector<bool>& determined, StageReport* report) {
+  ReportTable table{
+      "parameters (deg, mm)", {"min", "max", "mean", "sd", "sigma", "at_bound_%", "held"}, {}};
+  for (int k = 0; k < fit.parameters.num_parameters(); ++k) {
+    const RigParameter& parameter = rig.definition().parameters[k];
+    const double unit = parameter.unit == ParameterUnit::kRadian ? 180 / std::numbers::pi : 1;
+    const double touch = 1e-6 * (parameter.max - parameter.min);
+    std::vector<double> values, sigmas;
+    int at_bound = 0;
+    for (int frame = 0; frame < fit.parameters.num_frames(); ++frame) {
+      const double value = fit.parameters.values(frame, k);
+      if (!std::isfinite(value)) continue;
+      values.push_back(unit * value);
+      sigmas.push_back(unit * fit.parameters.sigmas(frame, k));
+      at_bound += value <= parameter.min + touch || value >= parameter.max - touch;
+    }
+    if (values.empty()) continue;
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const double mean = Mean(values);
+    std::vector<double> deviations = values;
+    for (double& deviation : deviations) deviation -= mean;
+    const double part_at_bound = at_bound / static_cast<double>(values.size());
+    table.rows.push_back({parameter.name,
+                          {*least, *most, mean, RootMeanSquare(deviations), Percentile(sigmas, 0.5),
+                           100 * part_at_bound, determined[k] ? 0.0 : 1.0}});
+    if (determined[k] && part_at_bound > kOftenAtBound)
+      report->warnings.push_back(fmt::format(
+          "{} rests at a bound of its range in {:.0f} % of the frames: the speaker moves "
+          "more than the rig may",
+          parameter.name, 100 * part_at_bound));
+  }
+  return table;
+}
+
+ReportTable ResidualTable(const ShapeFit& fit, const ExplainedVariance& explained) {
+  ReportTable table{
+      "residuals", {"rms_mm", "mean_mm", "p95_mm", "max_mm", "seen_%", "explained_%"}, {}};
+  for (int marker = 0; marker < fit.measured.num_markers(); ++marker) {
+    std::vector<double> residuals;
+    for (Eigen::Index frame = 0; frame < fit.residuals_mm.rows(); ++frame)
+      if (const double residual = fit.residuals_mm(frame, marker); std::isfinite(residual))
+        residuals.push_back(residual);
+    table.rows.push_back(
+        {fit.measured.names()[marker],
+         {RootMeanSquare(residuals), Mean(residuals), Percentile(residuals, 0.95),
+          Percentile(residuals, 1),
+          100.0 * static_cast<double>(residuals.size()) / std::max(1, fit.measured.num_frames()),
+          100 * explained.per_marker[marker]}});
+  }
+  return table;
+}
+
+}  // namespace
+
+ExplainedVariance ExplainVariance(const ShapeFit& fit, const std::vector<bool>& judged,
+                                  const std::vector<bool>& is_mouth_or_chin) {
+  const int num_markers = fit.measured.num_markers();
+  ExplainedVariance explained;
+  explained.num_frames = static_cast<int>(std::count(judged.begin(), judged.end(), true));
+  double unexplained_all = 0, total_all = 0, unexplained_mouth = 0, total_mouth = 0;
+  for (int marker = 0; marker < num_markers; ++marker) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double squares = 0, unexplained = 0;
+    int count = 0;
+    for (int frame = 0; frame < fit.measured.num_frames(); ++frame) {
+      if (!judged[frame] || fit.measured.is_missing(frame, marker) ||
+          fit.virtual_markers.is_missing(frame, marker))
+        continue;
+      const Eigen::Vector3d& p = fit.measured.position_mm(frame, marker);
+      sum += p;
+      squares += p.squaredNorm();
+      unexplained += (fit.virtual_markers.position_mm(frame, marker) - p).squaredNorm();
+      ++count;
+    }
+    const double total = count == 0 ? 0 : squares - sum.squaredNorm() / count;
+    explained.per_marker.push_back(total > 0 ? 1 - unexplained / total : kNaN);
+    unexplained_all += unexplained;
+    total_all += total;
+    if (is_mouth_or_chin[marker]) {
+      unexplained_mouth += unexplained;
+      total_mouth += total;
+    }
+  }
+  explained.all = total_all > 0 ? 1 - unexplained_all / total_all : kNaN;
+  explained.mouth_and_chin = total_mouth > 0 ? 1 - unexplained_mouth / total_mouth : kNaN;
+  return explained;
+}
+
+void DescribeFit(const ShapeFit& fit, const FaceRig& rig, const std::vector<bool>& determined,
+                 const ExplainedVariance& explained, StageReport* report) {
+  std::map<FitStatus, int> statuses;
+  for (const FitStatus status : fit.parameters.statuses) ++statuses[status];
+  report->figures.emplace_back("frames", fit.parameters.num_frames());
+  for (const auto& [status, count] : statuses)
+    report->figures.emplace_back(fmt::format("frames_{}", NameOf(status)), count);
+
+  std::vector<double> residuals;
+  for (const double residual : fit.parameters.residuals_mm)
+    if (std::isfinite(residual)) residuals.push_back(residual);
+  report->figures.emplace_back("mean_residual_mm", Mean(residuals));
+  report->figures.emplace_back("worst_frame_residual_mm", Percentile(residuals, 1));
+  report->figures.emplace_back("explained_variance_mouth_chin_%", 100 * explained.mouth_and_chin);
+  report->figures.emplace_back("explained_variance_all_%", 100 * explained.all);
+  report->figures.emplace_back("explained_variance_frames", explained.num_frames);
+  report->tables.push_back(ParameterTable(fit, rig, determined, report));
+  report->tables.push_back(ResidualTable(fit, explained));
+}
+
+}  // namespace articap
