@@ -66,12 +66,18 @@ std::vector<FrameRange> PromisedFrames(const C3dParameters& parameters) {
   return ranges;
 }
 
-// 16-bit counts wrap around in files that were written without the fields for long ones.
-std::optional<FrameRange> UnwrapHeader(FrameRange header, std::int64_t capacity,
+// Files of more than 65535 frames without the fields for so many: their 16-bit counts stop at 65535
+// or wrap around.
+std::optional<FrameRange> ExtendHeader(const C3dBytes& bytes, std::int64_t capacity,
                                        std::int64_t fitting_from) {
-  const std::int64_t rounds = (capacity - header.count) / 65536;
-  if (rounds < 1 || header.count + 65536 * rounds < fitting_from) return std::nullopt;
-  header.count += 65536 * rounds;
+  FrameRange header = HeaderFrames(bytes);
+  if (capacity <= header.count) return std::nullopt;
+  if (bytes.U16(kLastFrame) == 65535) {
+    header.count = capacity;
+    return header;
+  }
+  header.count += (capacity - header.count) / 65536 * 65536;
+  if (header.count < 65536 || header.count < fitting_from) return std::nullopt;
   return header;
 }
 
@@ -102,11 +108,12 @@ FrameRange ChooseFrames(const C3dParameters& parameters, const C3dLayout& layout
                         header.count, promise.source, promise.count));
       return promise;
     }
-  if (const auto unwrapped = UnwrapHeader(header, capacity, fitting_from)) {
-    warnings.push_back(fmt::format(
-        "The header's frame count ({}) wrapped around at 65536; the file holds {} frames.",
-        header.count, unwrapped->count));
-    return *unwrapped;
+  if (const auto extended = ExtendHeader(parameters.bytes(), capacity, fitting_from)) {
+    warnings.push_back(
+        fmt::format("The header's frame count ({}) is too small a number for the {} frames that "
+                    "the file holds.",
+                    header.count, extended->count));
+    return *extended;
   }
   if (chosen.count > capacity) {
     warnings.push_back(fmt::format(

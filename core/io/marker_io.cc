@@ -39,8 +39,9 @@ std::optional<MarkerFormat> GuessFromText(std::string_view text) {
     const std::string start = ToLower(Trim(line->substr(0, 200)));
     if (start.starts_with("pathfiletype") || start.starts_with("datarate"))
       return MarkerFormat::kTrc;
-    if (start.starts_with("no_of_frames") || start.starts_with("no_of_cameras") ||
-        start.starts_with("no_of_markers") || start.starts_with("marker_names"))
+    if (start.starts_with("file_version") || start.starts_with("no_of_frames") ||
+        start.starts_with("no_of_cameras") || start.starts_with("no_of_markers") ||
+        start.starts_with("marker_names"))
       return MarkerFormat::kQualisysTsv;
     if (start.starts_with("format version") || start.starts_with(",type,"))
       return MarkerFormat::kMotiveCsv;
