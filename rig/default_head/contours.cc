@@ -16,9 +16,9 @@ double Spread(double fraction) { return fraction * (1.18 - 0.18 * fraction); }
 
 Eigen::Vector2d VermilionBorder(Lip lip, double fraction) {
   // Cupid's bow, then falling to the corner.
-  static const Curve upper{{0, -46.6},  {2.5, -45.9}, {5, -45.1},   {8, -45.5},
+  static const Curve upper{{0, -46.1},  {2.5, -45.5}, {5, -44.7},   {8, -45.1},
                            {13, -47.6}, {18, -50.3},  {22, -52.3}, {face::kMouthHalfWidth, -54.2}};
-  static const Curve lower{{0, -62.8},  {5, -62.6},  {10, -61.6},
+  static const Curve lower{{0, -63.0},  {5, -62.8},  {10, -61.6},
                            {15, -59.9}, {20, -57.5}, {23, -55.9}, {face::kMouthHalfWidth, -54.2}};
   const double x = face::kMouthHalfWidth * Spread(fraction);
   return {x, lip == Lip::kUpper ? upper(x) : lower(x)};

@@ -58,15 +58,15 @@ double MouthRelief(double x, double y) {
   // corner of the mouth
   z -= 1.4 * Bell2((x - 28.5) / 3.0, (y + 55) / 4.5);
   // furrow between lower lip and chin, chin
-  z -= 1.8 * Bell2(x / 15, (y + 70.5) / 4.2);
+  z -= 1.3 * Bell2(x / 14, (y + 70.5) / 4.0);
   z += 2.0 * Bell2(x / 12, (y + 84) / 7.5);
   return z;
 }
 
 // The nose as a roof along its bridge, with tip and wings: absolute z in mm.
 double NoseHeight(double x, double y, double ground) {
-  static const Curve bridge{{-37, 78},    {-33, 90},    {-31, 97},   {-29, 102.5}, {-27, 108},
-                            {-24.5, 113}, {-22, 115.6}, {-19, 116.6}, {-16, 115.6}, {-10, 111.2},
+  static const Curve bridge{{-36, 70},    {-33, 83},    {-31, 92.5}, {-29.3, 99},  {-27.5, 105.5},
+                            {-25, 111.8}, {-22, 115.6}, {-19, 116.6}, {-16, 115.6}, {-10, 111.2},
                             {-4, 107},    {2, 102.8},   {8, 98.6},   {14, 95.2},   {20, 93.6},
                             {26, 94.6},   {33, 96.4},   {40, 92}};
   static const Curve steepness{{-34, 3.0}, {-26, 2.6}, {-22, 2.0}, {-10, 1.75}, {6, 1.5}, {20, 1.1}, {34, 0.5}};
@@ -76,9 +76,9 @@ double NoseHeight(double x, double y, double ground) {
   const double tip =
       116.4 - 5.0 * (std::pow(x / 7.0, 2) + std::pow((y + 19.5) / 7.0, 2));
   z = SmoothMax(z, tip, 2.5);
-  const double wing_x = (x - 11.8) / 5.6;
+  const double wing_x = (x - 12.3) / 5.8;
   const double wing_y = (y + 22.3) / 6.2;
-  const double wing = 106.5 - 0.25 * (x - 11.8) - 9.0 * (wing_x * wing_x + wing_y * wing_y);
+  const double wing = 106.5 - 0.25 * (x - 12.3) - 9.0 * (wing_x * wing_x + wing_y * wing_y);
   z = SmoothMax(z, wing, 2.5);
   return SmoothMax(ground, z, 2.0 + 6.0 * SmoothStep(-8, 20, y));
 }

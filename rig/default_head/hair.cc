@@ -13,10 +13,10 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 void AddHair(const FaceShape& shape, HalfMesh& half) {
-  constexpr int kColumns = 30;
+  constexpr int kColumns = 34;
   constexpr double kThickness_mm = 7.5;
   // From the hairline (0) to the crown (1); denser at the edge, where the hair rises from the skin.
-  static constexpr double kRows[] = {0, 0.02, 0.06, 0.14, 0.26, 0.40, 0.53, 0.65, 0.76, 0.86, 0.94};
+  static constexpr double kRows[] = {0, 0.01, 0.05, 0.13, 0.25, 0.39, 0.52, 0.64, 0.75, 0.85, 0.94};
   const BaseSurface& base = shape.base();
   const Vector3f color = LinearRgb(palette::kHair);
   std::vector<std::vector<int>> rows;
@@ -29,8 +29,10 @@ void AddHair(const FaceShape& shape, HalfMesh& half) {
       const double line = FaceShape::Hairline(s);
       const double t = line + along * (BaseSurface::kCrownLevel - line);
       const double top = SmoothStep(10.5, 14, t);
-      const double thick = (0.30 + 0.70 * top) * SmoothStep(-0.02, 0.17, along);
-      Vector3d p = base.At(s, t) + (kThickness_mm * thick - 0.4) * base.Outward(s, t);
+      // The edge sinks into the skin and rises steeply, so that the hairline is where it is drawn.
+      const double thick = (0.30 + 0.70 * top) * SmoothStep(-0.03, 0.17, along);
+      const double lift_mm = along == 0 ? -2.0 : 0.6 + kThickness_mm * thick;
+      Vector3d p = base.At(s, t) + lift_mm * base.Outward(s, t);
       if (c == 0 || c == kColumns) p.x() = 0;
       p.x() = std::max(p.x(), 0.0);
       rows.back().push_back(half.AddVertex(p, color, Part::kHair, Carrier::kSkull));

@@ -70,7 +70,7 @@ Field JawField(const IdentityInputs& in) {
   Field field(in.half.vertices.size(), Vector3d::Zero());
   for (std::size_t i = 0; i < in.skin.layout.nodes.size(); ++i) {
     const Vector3d& p = in.half.position(static_cast<int>(i));
-    const double below_lip = SmoothStep(-60, -80, p.y());
+    const double below_lip = SmoothStep(-57, -86, p.y());
     const Vector3d arm = p - in.jaw_pivot;
     field[i] = in.jaw_weights[i] * below_lip * Vector3d(0, arm.y(), arm.z());
   }

@@ -31,9 +31,9 @@ struct Arch {
 };
 
 constexpr double kArchCenterZ = 46;
-constexpr Arch kUpper{27.5, 47.2, {8.6, 6.8, 7.6, 7.0, 6.8, 10}, -56.0, -54.0, 10, 1,
+constexpr Arch kUpper{27.5, 46.2, {8.6, 6.8, 7.6, 7.0, 6.8, 10}, -56.0, -54.0, 10, 1,
                       Region::kTeethUpper, Carrier::kSkull};
-constexpr Arch kLower{25.3, 44.4, {5.4, 5.9, 6.9, 7.0, 7.1, 11}, -53.4, -55.2, 9, -1,
+constexpr Arch kLower{25.3, 43.2, {5.4, 5.9, 6.9, 7.0, 7.1, 11}, -53.4, -55.2, 9, -1,
                       Region::kTeethLower, Carrier::kMandible};
 
 // Point and outward normal of the labial arch after a length along it from the midline.
@@ -59,7 +59,7 @@ struct ProfilePoint {
   double from_edge;     // in crown heights: 0 at the edge, 1 at the gum's margin
   bool gum;
 };
-constexpr ProfilePoint kProfile[] = {{0.5, 0, 1.75, true},  {-0.7, 0, 1.1, true},
+constexpr ProfilePoint kProfile[] = {{2.6, 0, 1.7, true},  {-0.5, 0, 1.1, true},
                                      {0.2, 0, 0.98, false}, {-0.1, 0, 0.5, false},
                                      {0.5, 0, 0.08, false}, {1.0, 0.1, 0, false},
                                      {2.2, 1, 0.03, false}, {5.5, 0.8, 0.75, false},
@@ -141,20 +141,21 @@ void AddTongue(HalfMesh& half) {
   constexpr int kAlong = 9;
   constexpr int kAround = 7;
   static const Curve kWidth{{0, 0}, {0.05, 5.5}, {0.15, 10}, {0.35, 14}, {0.65, 17}, {1, 18}};
-  static const Curve kThickness{{0, 0}, {0.05, 1.6}, {0.15, 2.6}, {0.4, 4.5}, {0.7, 7}, {1, 9}};
-  static const Curve kMiddleY{{0, -60.5}, {0.2, -59.3}, {0.6, -58}, {1, -60}};
-  const Vector3f color = LinearRgb(palette::kTongue);
-  std::vector<int> before(kAround + 1, half.AddVertex({0, kMiddleY(0), 82}, color, Part::kTongue,
+  static const Curve kThickness{{0, 0}, {0.05, 1.6}, {0.15, 2.6}, {0.4, 4.0}, {0.7, 5.5}, {1, 7}};
+  static const Curve kMiddleY{{0, -61}, {0.2, -60.3}, {0.6, -60}, {1, -64}};
+  const Vector3f tip = LinearRgb(palette::kTongue), root = LinearRgb(palette::kMouthInside);
+  std::vector<int> before(kAround + 1, half.AddVertex({0, kMiddleY(0), 81}, tip, Part::kTongue,
                                                       Carrier::kTongue));
   for (int i = 1; i <= kAlong; ++i) {
     const double t = std::pow(i / static_cast<double>(kAlong), 1.5);
+    const Vector3f color = tip + static_cast<float>(SmoothStep(0.2, 1, t)) * (root - tip);
     std::vector<int> here;
     for (int j = 0; j <= kAround; ++j) {
       const double around = std::numbers::pi * j / kAround;
       // A shallow furrow runs along the middle of the back.
       const double furrow = j == 0 ? 0.8 * SmoothStep(0, 0.3, t) : 0;
       const double x = j == 0 || j == kAround ? 0 : kWidth(t) * std::sin(around);
-      const Vector3d p(x, kMiddleY(t) + kThickness(t) * std::cos(around) - furrow, 82 - 38 * t);
+      const Vector3d p(x, kMiddleY(t) + kThickness(t) * std::cos(around) - furrow, 81 - 38 * t);
       here.push_back(half.AddVertex(p, color, Part::kTongue, Carrier::kTongue));
     }
     for (int j = 0; j < kAround; ++j)

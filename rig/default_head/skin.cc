@@ -148,8 +148,8 @@ class SkinMaker {
     };
     // From behind the seam round the vestibule, outside of the teeth, to the throat.
     static constexpr BagRing kRings[] = {
-        {25.0, 1.2, 1.2, 96.6, 84.0, 0.0},  {26.0, 5.5, 5.0, 95.4, 81.0, 0.1},
-        {28.5, 13, 11, 93.6, 76.0, 0.3},    {30.5, 18, 14, 86, 67.0, 0.5},
+        {25.0, 1.2, 1.2, 96.4, 84.0, 0.0},  {26.0, 5.0, 4.5, 94.0, 80.5, 0.1},
+        {28.0, 11, 9.5, 92.0, 75.0, 0.3},   {30.0, 17, 14, 84, 66.0, 0.5},
         {31.0, 18, 17, 70, 57.0, 0.75},     {24.0, 15, 15, 50, 46.0, 1.0}};
     for (const BagRing& bag : kRings) {
       std::vector<int> vertices;

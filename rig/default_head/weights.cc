@@ -21,12 +21,19 @@ namespace {
 using Eigen::Vector3d;
 
 // What is left of a lip's weight on the rings of the mouth bag behind the seam.
-constexpr double kBagDecay[] = {1.0, 0.9, 0.5, 0.15, 0, 0, 0};
+constexpr double kBagDecay[] = {1.0, 0.95, 0.85, 0.4, 0.1, 0, 0};
+
+// From 1 to 0; of all smooth steps the cubic one's slope is mildest, so that skin between a moving lip
+// and a resting chin is squeezed least.
+double Decay(double distance) {
+  const double u = std::clamp(distance, 0.0, 1.0);
+  return 1 - u * u * (3 - 2 * u);
+}
 
 // Jaw weights along the closed lips. Their difference is how the mouth opens: an ellipse-like slit
 // between corners that go half way.
 double OpeningShape(double fraction) {
-  return std::pow(std::max(1 - std::pow(fraction, 2.4), 0.0), 0.62);
+  return std::pow(std::max(1 - std::pow(fraction, 2.2), 0.0), 0.8);
 }
 
 // Where the skin is bone to the mandible or to the skull; nothing where it stretches between.
@@ -34,7 +41,8 @@ std::optional<double> BoundJawWeight(double section, double level) {
   if (level < 1.0 || level > 9.3 || section > 4.75) return 0;
   if (section < 1.1 && level > 7.95) return 0;
   if (section > 3.3 && level > 8.2) return 0;
-  if (section < 1.5 && level > 4.0 && level < 5.3) return 1;
+  // An ellipse: corners of the bound region would crease the skin.
+  if (std::hypot(section / 1.75, (level - 4.6) / 0.85) < 1) return 1;
   return std::nullopt;
 }
 
@@ -178,7 +186,7 @@ std::vector<double> LipWeights(const LipWeightSpec& spec, const LipDistances& di
   std::vector<double> on_layout;
   for (const LipDistances::Nearest& nearest : distances.FromBorder(spec.on_upper, spec.on_lower))
     on_layout.push_back(at_column(nearest.column) *
-                        SmoothStep(spec.reach_mm, 0, nearest.distance_mm));
+                        Decay(nearest.distance_mm / spec.reach_mm));
   // The border of the other lip does not move, whatever the way round the corner.
   const std::vector<int>& border = skin.mouth_rings[skin.border_ring];
   for (int k = 0; k < skin.num_mouth_columns(); ++k) on_layout[border[k]] = at_column(k);
