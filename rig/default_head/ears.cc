@@ -33,8 +33,8 @@ constexpr EarRing kRings[] = {{0.22, -5.0, false}, {0.42, -4.2, false}, {0.55, -
 // Outline in the ear's plane, mm from the concha, by the angle from backwards over up.
 double Outline(double degrees) {
   static const Curve curve{{0, 20},   {30, 25},  {55, 29.5}, {80, 32},  {100, 30}, {122, 24},
-                           {150, 15}, {180, 11}, {210, 13},  {240, 23}, {256, 29}, {270, 31},
-                           {285, 29}, {310, 23}, {335, 20},  {360, 20}};
+                           {150, 15}, {180, 11}, {210, 13},  {240, 24}, {255, 28}, {270, 29.5},
+                           {288, 28.5}, {312, 24}, {335, 20.5},  {360, 20}};
   return curve(degrees);
 }
 
@@ -49,7 +49,7 @@ Vector3d EarPoint(const EarRing& ring, double degrees) {
   // The tragus covers the front of the concha.
   if (ring.radius > 0.5 && ring.radius < 0.97 && relief > -1.5)
     relief += 2.5 * front * Bell((ring.radius - 0.72) / 0.15);
-  const double hinge = 0.38 * (backward + 11) * (1 - 0.55 * lobe);
+  const double hinge = 0.38 * (backward + 11) * (1 - 0.8 * lobe);
   // The ear leans back by 8 degrees.
   const double lean = 0.14 * upward;
   return {kSideX + hinge + relief + 0.07 * upward - 1.5 * front, kMiddleY + upward + 0.14 * backward,

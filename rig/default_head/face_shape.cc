@@ -66,7 +66,7 @@ double MouthRelief(double x, double y) {
 // The nose as a roof along its bridge, with tip and wings: absolute z in mm.
 double NoseHeight(double x, double y, double ground) {
   static const Curve bridge{{-36, 70},    {-33, 83},    {-31, 92.5}, {-29.3, 99},  {-27.5, 105.5},
-                            {-25, 111.8}, {-22, 115.6}, {-19, 116.6}, {-16, 115.6}, {-10, 111.2},
+                            {-25, 111.8}, {-22, 114.6}, {-19, 115.4}, {-16, 114.6}, {-10, 110.6},
                             {-4, 107},    {2, 102.8},   {8, 98.6},   {14, 95.2},   {20, 93.6},
                             {26, 94.6},   {33, 96.4},   {40, 92}};
   static const Curve steepness{{-34, 3.0}, {-26, 2.6}, {-22, 2.0}, {-10, 1.75}, {6, 1.5}, {20, 1.1}, {34, 0.5}};
@@ -74,7 +74,7 @@ double NoseHeight(double x, double y, double ground) {
   const double e = roundness(y);
   double z = bridge(y) - steepness(y) * (std::sqrt(x * x + e * e) - e);
   const double tip =
-      116.4 - 5.0 * (std::pow(x / 7.0, 2) + std::pow((y + 19.5) / 7.0, 2));
+      115.4 - 5.0 * (std::pow(x / 7.5, 2) + std::pow((y + 19.5) / (y < -19.5 ? 4.8 : 7.0), 2));
   z = SmoothMax(z, tip, 2.5);
   const double wing_x = (x - 12.3) / 5.8;
   const double wing_y = (y + 22.3) / 6.2;
