@@ -4,12 +4,12 @@
 #include <Eigen/Core>
 #include <array>
 
-namespace articap {
+namespace articap::default_head {
 
 // The head without nose, lips, lids, ears and hair: a smooth surface through a table of points that
 // follow the anthropometry of an average adult. Sections s run round the left half, from 0, the
-// midline of the face, to 7, the midline of the back; levels t run from 0, the base of the neck, over
-// 4, the edge of the jaw from chin to ear, to 16, the crown.
+// midline of the face, to 7, the midline of the back; levels t run from 0, the base of the neck,
+// over 4, the edge of the jaw from chin to ear, to 16, the crown.
 class BaseSurface {
  public:
   static constexpr int kNumSections = 8;
@@ -28,8 +28,8 @@ class BaseSurface {
   // Unit normal of the surface, outwards.
   Eigen::Vector3d Outward(double section, double level) const;
 
-  // Section and level of the point of the face (not of the back) that a view from the front shows at
-  // x, y.
+  // Section and level of the point of the face (not of the back) that a view from the front shows
+  // at x, y.
   Eigen::Vector2d FindInFront(double x_mm, double y_mm) const;
 
  private:
@@ -37,4 +37,4 @@ class BaseSurface {
   std::array<std::array<Eigen::Vector3d, kNumSections + 2>, kNumLevels + 2> control_;
 };
 
-}  // namespace articap
+}  // namespace articap::default_head

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace articap {
+namespace articap::default_head {
 
 // Lines of the left half of the face as a view from the front shows them: x, y in mm, rig frame.
 // Along the lips the fraction runs from 0 at the midline to 1 at the corner, along the lids from 0
@@ -17,4 +17,4 @@ Eigen::Vector2d LidMargin(Lid lid, double fraction);
 // Where the closed lips meet, mm, rig frame.
 Eigen::Vector3d LipSeam(double fraction);
 
-}  // namespace articap
+}  // namespace articap::default_head

@@ -6,7 +6,7 @@
 
 #include "core/check.h"
 
-namespace articap {
+namespace articap::default_head {
 
 Curve::Curve(const std::vector<Eigen::Vector2d>& knots) {
   ARTICAP_CHECK_GE(knots.size(), 2u);
@@ -50,4 +50,4 @@ double SmoothMax(double a, double b, double width) {
 
 double Bell(double x) { return std::exp(-0.5 * x * x); }
 
-}  // namespace articap
+}  // namespace articap::default_head

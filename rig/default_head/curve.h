@@ -5,10 +5,10 @@
 #include <initializer_list>
 #include <vector>
 
-namespace articap {
+namespace articap::default_head {
 
-// A function through given points, smooth and without overshoot (Fritsch and Carlson 1980); constant
-// outside of them.
+// A function through given points, smooth and without overshoot (Fritsch and Carlson 1980);
+// constant outside of them.
 class Curve {
  public:
   // {abscissa, value} in rising order of the abscissae.
@@ -33,4 +33,4 @@ double SmoothMax(double a, double b, double width);
 // exp(-x^2 / 2)
 double Bell(double x);
 
-}  // namespace articap
+}  // namespace articap::default_head

@@ -21,7 +21,7 @@
 #include "rig/default_head/spectacles.h"
 #include "rig/default_head/weights.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 using Eigen::Vector3d;
@@ -54,16 +54,15 @@ DisplacementField SpreadField(const std::vector<Vector3d>& half, const MirrorMap
   for (std::size_t i = 0; i < half.size(); ++i) {
     if (half[i].isZero(0)) continue;
     add(map.left[i], half[i]);
-    if (map.right[i] != map.left[i])
-      add(map.right[i], {-half[i].x(), half[i].y(), half[i].z()});
+    if (map.right[i] != map.left[i]) add(map.right[i], {-half[i].x(), half[i].y(), half[i].z()});
   }
   return field;
 }
 
 template <class Items>
 std::optional<int> IndexOf(const Items& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const auto& item) { return item.name == name; });
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.name == name; });
   if (found == items.end()) return std::nullopt;
   return static_cast<int>(found - items.begin());
 }
@@ -73,9 +72,7 @@ class NameLookup {
  public:
   explicit NameLookup(const RigDefinition& definition) : definition_(definition) {}
 
-  int Parameter(const std::string& name) {
-    return Find(definition_.parameters, name, "parameter");
-  }
+  int Parameter(const std::string& name) { return Find(definition_.parameters, name, "parameter"); }
   int Weights(const std::string& name) { return Find(definition_.weight_maps, name, "weight map"); }
   int LandmarkVertex(const std::string& name) {
     const int index = Find(definition_.landmarks, name, "landmark");
@@ -87,7 +84,8 @@ class NameLookup {
   template <class Items>
   int Find(const Items& items, const std::string& name, const char* kind) {
     if (const auto index = IndexOf(items, name)) return *index;
-    if (fault_.empty()) fault_ = fmt::format("rig.toml names a {} '{}', which there is not", kind, name);
+    if (fault_.empty())
+      fault_ = fmt::format("rig.toml names a {} '{}', which there is not", kind, name);
     return 0;
   }
 
@@ -165,8 +163,12 @@ void AddWeightMaps(const RigFile& file, const HalfHead& head, const LipDistances
 }
 
 }  // namespace
+}  // namespace articap::default_head
+
+namespace articap {
 
 Result<FaceRig> MakeDefaultHead() {
+  using namespace default_head;
   Result<RigFile> file = ParseRigFile(DefaultRigToml(), "rig/default_head/rig.toml");
   if (!file) return Fail(file.error().message);
   const HalfHead head = MakeHalfHead();
@@ -182,7 +184,8 @@ Result<FaceRig> MakeDefaultHead() {
   AddWeightMaps(*file, head, lip_distances, jaw_weights, map, definition);
   if (Result<void> added = AddMotion(*file, definition); !added) return Fail(added.error().message);
 
-  const IdentityInputs inputs{head.mesh, head.skin, head.shape, lip_distances, jaw_weights, kJawPivot};
+  const IdentityInputs inputs{head.mesh,     head.skin,   head.shape,
+                              lip_distances, jaw_weights, kJawPivot};
   for (IdentitySlider& slider : file->identity) {
     const auto field = IdentityField(slider.name, inputs);
     if (!field) return Fail(field.error().message);

@@ -8,13 +8,13 @@
 #include "rig/default_head/curve.h"
 #include "rig/default_head/palette.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kMiddleY = 2;   // of the concha, mm, rig frame
+constexpr double kMiddleY = 2;  // of the concha, mm, rig frame
 constexpr double kMiddleZ = -13;
 constexpr double kSideX = 70.5;  // the head's side there
 
@@ -32,9 +32,9 @@ constexpr EarRing kRings[] = {{0.22, -5.0, false}, {0.42, -4.2, false}, {0.55, -
 
 // Outline in the ear's plane, mm from the concha, by the angle from backwards over up.
 double Outline(double degrees) {
-  static const Curve curve{{0, 20},   {30, 25},  {55, 29.5}, {80, 32},  {100, 30}, {122, 24},
-                           {150, 15}, {180, 11}, {210, 13},  {240, 24}, {255, 28}, {270, 29.5},
-                           {288, 28.5}, {312, 24}, {335, 20.5},  {360, 20}};
+  static const Curve curve{{0, 20},     {30, 25},  {55, 29.5},  {80, 32},  {100, 30}, {122, 24},
+                           {150, 15},   {180, 11}, {210, 13},   {240, 24}, {255, 28}, {270, 29.5},
+                           {288, 28.5}, {312, 24}, {335, 20.5}, {360, 20}};
   return curve(degrees);
 }
 
@@ -52,8 +52,8 @@ Vector3d EarPoint(const EarRing& ring, double degrees) {
   const double hinge = 0.38 * (backward + 11) * (1 - 0.8 * lobe);
   // The ear leans back by 8 degrees.
   const double lean = 0.14 * upward;
-  return {kSideX + hinge + relief + 0.07 * upward - 1.5 * front, kMiddleY + upward + 0.14 * backward,
-          kMiddleZ - backward - lean};
+  return {kSideX + hinge + relief + 0.07 * upward - 1.5 * front,
+          kMiddleY + upward + 0.14 * backward, kMiddleZ - backward - lean};
 }
 
 }  // namespace
@@ -62,10 +62,9 @@ void AddEar(HalfMesh& half) {
   constexpr int kSegments = 20;
   const Vector3f skin = LinearRgb(palette::kSkin);
   const Vector3f blush = LinearRgb(palette::kBlush);
-  std::vector<int> inner(kSegments,
-                         half.AddVertex({kSideX - 5, kMiddleY - 1, kMiddleZ + 4},
-                                        LinearRgb(palette::kMouthInside), Part::kSkin,
-                                        Carrier::kSkull));
+  std::vector<int> inner(
+      kSegments, half.AddVertex({kSideX - 5, kMiddleY - 1, kMiddleZ + 4},
+                                LinearRgb(palette::kMouthInside), Part::kSkin, Carrier::kSkull));
   for (const EarRing& ring : kRings) {
     std::vector<int> outer;
     for (int k = 0; k < kSegments; ++k) {
@@ -82,4 +81,4 @@ void AddEar(HalfMesh& half) {
   }
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

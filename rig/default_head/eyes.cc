@@ -8,7 +8,7 @@
 #include "rig/default_head/curve.h"
 #include "rig/default_head/palette.h"
 
-namespace articap {
+namespace articap::default_head {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
@@ -21,12 +21,12 @@ int AddEyeball(HalfMesh& half) {
   };
   // Pupil 4 mm, iris 11.8 mm across.
   static constexpr Ring kRings[] = {
-      {8.7, palette::kPupil},   {9.7, palette::kIris},    {17, palette::kIris},
-      {24.5, palette::kIris},   {26.0, palette::kIrisRim}, {28.2, palette::kSclera},
-      {45, palette::kSclera},   {65, palette::kSclera},   {95, palette::kSclera}};
+      {8.7, palette::kPupil}, {9.7, palette::kIris},     {17, palette::kIris},
+      {24.5, palette::kIris}, {26.0, palette::kIrisRim}, {28.2, palette::kSclera},
+      {45, palette::kSclera}, {65, palette::kSclera},    {95, palette::kSclera}};
   const Vector3d center(face::kPupilX, face::kPupilY, face::kEyeZ);
-  const int pivot = half.AddVertex(center, LinearRgb(palette::kSclera), Part::kEyes,
-                                   Carrier::kSkull);
+  const int pivot =
+      half.AddVertex(center, LinearRgb(palette::kSclera), Part::kEyes, Carrier::kSkull);
   const int front = half.AddVertex(center + Vector3d(0, 0, face::kEyeRadius),
                                    LinearRgb(palette::kPupil), Part::kEyes, Carrier::kSkull);
   std::vector<int> inner(kSegments, front);
@@ -55,7 +55,8 @@ int AddEyeball(HalfMesh& half) {
 void AddBrow(const FaceShape& shape, HalfMesh& half) {
   constexpr int kAlong = 14;
   constexpr int kAcross = 4;
-  static const Curve kMiddle{{9.5, 28.5}, {16, 30.8}, {26, 33.8}, {36, 35.4}, {44, 33.8}, {50, 30.5}};
+  static const Curve kMiddle{{9.5, 28.5}, {16, 30.8}, {26, 33.8},
+                             {36, 35.4},  {44, 33.8}, {50, 30.5}};
   static const Curve kHalfWidth{{9.5, 2.4}, {14, 3.6}, {26, 3.4}, {38, 2.5}, {45, 1.6}, {50, 0.5}};
   std::vector<std::vector<int>> rows;
   for (int i = 0; i <= kAlong; ++i) {
@@ -65,7 +66,8 @@ void AddBrow(const FaceShape& shape, HalfMesh& half) {
       const double v = 2.0 * j / kAcross - 1;
       Vector3d p = shape.InFront(x + 0.8 * v, kMiddle(x) + v * kHalfWidth(x));
       // The cushion's edge sinks into the skin.
-      p.z() += 1.5 * (1 - v * v) * SmoothStep(-1, 2.5, i) * SmoothStep(kAlong + 1, kAlong - 3, i) - 0.35;
+      p.z() +=
+          1.5 * (1 - v * v) * SmoothStep(-1, 2.5, i) * SmoothStep(kAlong + 1, kAlong - 3, i) - 0.35;
       rows.back().push_back(
           half.AddVertex(p, LinearRgb(palette::kBrow), Part::kBrows, Carrier::kSkull));
     }
@@ -76,4 +78,4 @@ void AddBrow(const FaceShape& shape, HalfMesh& half) {
                    Region::kSkull);
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

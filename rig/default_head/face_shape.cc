@@ -7,7 +7,7 @@
 
 #include "rig/default_head/curve.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 double Bell2(double x, double y) { return Bell(x) * Bell(y); }
@@ -65,12 +65,14 @@ double MouthRelief(double x, double y) {
 
 // The nose as a roof along its bridge, with tip and wings: absolute z in mm.
 double NoseHeight(double x, double y, double ground) {
-  static const Curve bridge{{-36, 70},    {-33, 83},    {-31, 92.5}, {-29.3, 99},  {-27.5, 105.5},
+  static const Curve bridge{{-36, 70},    {-33, 83},    {-31, 92.5},  {-29.3, 99},  {-27.5, 105.5},
                             {-25, 111.8}, {-22, 114.6}, {-19, 115.4}, {-16, 114.6}, {-10, 110.6},
-                            {-4, 107},    {2, 102.8},   {8, 98.6},   {14, 95.2},   {20, 93.6},
+                            {-4, 107},    {2, 102.8},   {8, 98.6},    {14, 95.2},   {20, 93.6},
                             {26, 94.6},   {33, 96.4},   {40, 92}};
-  static const Curve steepness{{-34, 3.0}, {-26, 2.6}, {-22, 2.0}, {-10, 1.75}, {6, 1.5}, {20, 1.1}, {34, 0.5}};
-  static const Curve roundness{{-30, 2.0}, {-24, 4.0}, {-19, 5.5}, {-12, 4.2}, {0, 3.4}, {20, 4.5}, {34, 8}};
+  static const Curve steepness{{-34, 3.0}, {-26, 2.6}, {-22, 2.0}, {-10, 1.75},
+                               {6, 1.5},   {20, 1.1},  {34, 0.5}};
+  static const Curve roundness{{-30, 2.0}, {-24, 4.0}, {-19, 5.5}, {-12, 4.2},
+                               {0, 3.4},   {20, 4.5},  {34, 8}};
   const double e = roundness(y);
   double z = bridge(y) - steepness(y) * (std::sqrt(x * x + e * e) - e);
   const double tip =
@@ -108,10 +110,10 @@ bool IsNearNose(const Eigen::Vector3d& on_base) {
 }  // namespace
 
 double FaceShape::Hairline(double section) {
-  static const Curve line{{0, 12.95}, {1, 13.0},  {1.8, 12.9},  {2.4, 12.5}, {2.85, 11.8}, {3.1, 11.1},
-                          {3.3, 10.4}, {3.45, 9.5}, {3.6, 9.0}, {3.8, 8.85}, {4.0, 9.1},  {4.2, 9.9},
-                          {4.45, 10.4}, {4.75, 10.2}, {5.0, 8.9}, {5.2, 7.2}, {5.45, 6.0}, {6, 5.2},
-                          {7, 4.9}};
+  static const Curve line{{0, 12.95},  {1, 13.0},   {1.8, 12.9},  {2.4, 12.5},  {2.85, 11.8},
+                          {3.1, 11.1}, {3.3, 10.4}, {3.45, 9.5},  {3.6, 9.0},   {3.8, 8.85},
+                          {4.0, 9.1},  {4.2, 9.9},  {4.45, 10.4}, {4.75, 10.2}, {5.0, 8.9},
+                          {5.2, 7.2},  {5.45, 6.0}, {6, 5.2},     {7, 4.9}};
   return line(section);
 }
 
@@ -156,4 +158,4 @@ Eigen::Vector3d FaceShape::InFront(double x_mm, double y_mm) const {
   return At(base_.FindInFront(x_mm, y_mm));
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

@@ -5,7 +5,7 @@
 
 #include "rig/default_head/base_surface.h"
 
-namespace articap {
+namespace articap::default_head {
 
 // Places that several parts of the head share, mm, rig frame, on the speaker's left.
 namespace face {
@@ -44,4 +44,4 @@ class FaceShape {
   BaseSurface base_;
 };
 
-}  // namespace articap
+}  // namespace articap::default_head

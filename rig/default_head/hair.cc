@@ -7,7 +7,7 @@
 #include "rig/default_head/curve.h"
 #include "rig/default_head/palette.h"
 
-namespace articap {
+namespace articap::default_head {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
@@ -47,4 +47,4 @@ void AddHair(const FaceShape& shape, HalfMesh& half) {
                    Region::kSkull);
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

@@ -4,9 +4,9 @@
 #include "rig/default_head/face_shape.h"
 #include "rig/default_head/half_mesh.h"
 
-namespace articap {
+namespace articap::default_head {
 
 // A cap of short hair over the cranium, down to the hairline.
 void AddHair(const FaceShape& shape, HalfMesh& half);
 
-}  // namespace articap
+}  // namespace articap::default_head

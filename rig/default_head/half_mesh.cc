@@ -6,7 +6,7 @@
 
 #include "core/check.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 Region MirrorRegion(Region region) {
@@ -84,4 +84,4 @@ Eigen::Vector3f LinearRgb(std::uint32_t srgb) {
   return linear;
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

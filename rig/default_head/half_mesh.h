@@ -8,7 +8,7 @@
 
 #include "rig/face_rig.h"
 
-namespace articap {
+namespace articap::default_head {
 
 enum class Part : std::uint8_t { kSkin, kHair, kBrows, kEyes, kTeeth, kGums, kTongue, kSpectacles };
 inline constexpr const char* kPartNames[] = {"skin",  "hair", "brows",  "eyes",
@@ -31,11 +31,11 @@ enum class Region : std::uint8_t {
   kSpectacles
 };
 inline constexpr const char* kRegionNames[] = {
-    "skull",  "nose",        "upper_lip",   "lower_lip", "jaw",  "left_cheek", "right_cheek",
-    "neck",   "inside",      "teeth_upper", "teeth_lower", "tongue", "eyes",     "spectacles"};
+    "skull", "nose",   "upper_lip",   "lower_lip",   "jaw",    "left_cheek", "right_cheek",
+    "neck",  "inside", "teeth_upper", "teeth_lower", "tongue", "eyes",       "spectacles"};
 
-// How far a vertex goes with the mandible apart from the skin's smooth weights: the parts inside the
-// mouth are rigid, the skin is not.
+// How far a vertex goes with the mandible apart from the skin's smooth weights: the parts inside
+// the mouth are rigid, the skin is not.
 enum class Carrier : std::uint8_t { kSkin, kSkull, kMandible, kTongue };
 
 // The speaker's left half of a head (x >= 0) while it is being made. What lies on the midline has
@@ -76,4 +76,4 @@ MirrorMap MirrorHalf(const HalfMesh& half, RigDefinition& definition);
 // Linear RGB of an sRGB colour 0xRRGGBB.
 Eigen::Vector3f LinearRgb(std::uint32_t srgb);
 
-}  // namespace articap
+}  // namespace articap::default_head

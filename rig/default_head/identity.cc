@@ -7,7 +7,7 @@
 
 #include "rig/default_head/curve.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 using Eigen::Vector3d;
@@ -114,4 +114,4 @@ Result<Field> IdentityField(const std::string& name, const IdentityInputs& input
   return Fail(fmt::format("the default head has no identity slider '{}'", name));
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

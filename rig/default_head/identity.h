@@ -10,7 +10,7 @@
 #include "rig/default_head/skin.h"
 #include "rig/default_head/weights.h"
 
-namespace articap {
+namespace articap::default_head {
 
 // What the fields of the identity sliders are made from.
 struct IdentityInputs {
@@ -26,4 +26,4 @@ struct IdentityInputs {
 Result<std::vector<Eigen::Vector3d>> IdentityField(const std::string& name,
                                                    const IdentityInputs& inputs);
 
-}  // namespace articap
+}  // namespace articap::default_head

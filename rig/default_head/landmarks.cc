@@ -7,7 +7,7 @@
 
 #include "core/check.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 using Eigen::Vector2d;
@@ -17,21 +17,29 @@ struct FrontPlace {
   const char* name;
   double x_mm, y_mm;  // as a view from the front shows it
 };
-constexpr FrontPlace kFrontPlaces[] = {
-    {"nose_tip", 0, -19.5},         {"nose_bridge", 0, 20},        {"subnasale", 0, -31.5},
-    {"nose_{}", 17.3, -23},         {"chin", 0, -85},              {"brow_center", 0, 33},
-    {"forehead_center", 0, 56},     {"forehead_{}", 36, 56},       {"{}_brow_inner", 12, 30},
-    {"{}_brow_middle", 31, 35.5},   {"{}_brow_outer", 47, 32.5},   {"{}_cheek", 49, -8},
-    {"{}_cheek_middle", 40, -30},   {"{}_cheek_lower", 42, -52},   {"chin_{}", 15, -86}};
+constexpr FrontPlace kFrontPlaces[] = {{"nose_tip", 0, -19.5},
+                                       {"nose_bridge", 0, 20},
+                                       {"subnasale", 0, -31.5},
+                                       {"nose_{}", 17.3, -23},
+                                       {"chin", 0, -85},
+                                       {"brow_center", 0, 33},
+                                       {"forehead_center", 0, 56},
+                                       {"forehead_{}", 36, 56},
+                                       {"{}_brow_inner", 12, 30},
+                                       {"{}_brow_middle", 31, 35.5},
+                                       {"{}_brow_outer", 47, 32.5},
+                                       {"{}_cheek", 49, -8},
+                                       {"{}_cheek_middle", 40, -30},
+                                       {"{}_cheek_lower", 42, -52},
+                                       {"chin_{}", 15, -86}};
 
 // Places on the side, at a section and level of the base surface.
 struct SidePlace {
   const char* name;
   double section, level;
 };
-constexpr SidePlace kSidePlaces[] = {{"menton", 0, 4.0},
-                                     {"jaw_{}", 2.5, 4.05},
-                                     {"{}_jaw_angle", 4.0, 4.1}};
+constexpr SidePlace kSidePlaces[] = {
+    {"menton", 0, 4.0}, {"jaw_{}", 2.5, 4.05}, {"{}_jaw_angle", 4.0, 4.1}};
 
 int NearestVertex(const HalfMesh& half, const Vector3d& place, std::size_t num_candidates,
                   Part part) {
@@ -114,4 +122,4 @@ std::vector<Landmark> MirrorLandmarks(const std::vector<HalfLandmark>& half, con
   return landmarks;
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

@@ -10,11 +10,11 @@
 #include "rig/default_head/skin.h"
 #include "rig/face_rig.h"
 
-namespace articap {
+namespace articap::default_head {
 
 // A landmark on the speaker's left half. Those off the midline get a partner on the right.
 struct HalfLandmark {
-  std::string name;   // on the midline, or with {} where left or right stands
+  std::string name;  // on the midline, or with {} where left or right stands
   int vertex = 0;
 };
 
@@ -34,4 +34,4 @@ std::vector<HalfLandmark> FindLandmarks(const HalfMesh& half, const Skin& skin,
 // The same on the whole head.
 std::vector<Landmark> MirrorLandmarks(const std::vector<HalfLandmark>& half, const MirrorMap& map);
 
-}  // namespace articap
+}  // namespace articap::default_head

@@ -9,14 +9,14 @@
 #include "rig/default_head/curve.h"
 #include "rig/default_head/palette.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr int kTeeth = 6;           // a quadrant shows: two incisors, canine, premolars, a molar
+constexpr int kTeeth = 6;  // a quadrant shows: two incisors, canine, premolars, a molar
 constexpr int kColumnsPerTooth = 3;
 
 struct Arch {
@@ -31,10 +31,17 @@ struct Arch {
 };
 
 constexpr double kArchCenterZ = 46;
-constexpr Arch kUpper{27.5, 46.2, {8.6, 6.8, 7.6, 7.0, 6.8, 10}, -56.0, -54.0, 10, 1,
-                      Region::kTeethUpper, Carrier::kSkull};
-constexpr Arch kLower{25.3, 43.2, {5.4, 5.9, 6.9, 7.0, 7.1, 11}, -53.4, -55.2, 9, -1,
-                      Region::kTeethLower, Carrier::kMandible};
+constexpr Arch kUpper{27.5, 46.2, {8.6, 6.8, 7.6, 7.0, 6.8, 10}, -56.0,          -54.0,
+                      10,   1,    Region::kTeethUpper,           Carrier::kSkull};
+constexpr Arch kLower{25.3,
+                      43.2,
+                      {5.4, 5.9, 6.9, 7.0, 7.1, 11},
+                      -53.4,
+                      -55.2,
+                      9,
+                      -1,
+                      Region::kTeethLower,
+                      Carrier::kMandible};
 
 // Point and outward normal of the labial arch after a length along it from the midline.
 struct ArchPoint {
@@ -44,26 +51,26 @@ ArchPoint AlongArch(const Arch& arch, double length_mm) {
   constexpr double kStep = 0.002;
   double angle = 0;
   for (double length = 0; length < length_mm; angle += kStep)
-    length += kStep * std::hypot(arch.half_width_mm * std::cos(angle),
-                                 arch.depth_mm * std::sin(angle));
+    length +=
+        kStep * std::hypot(arch.half_width_mm * std::cos(angle), arch.depth_mm * std::sin(angle));
   if (length_mm == 0) angle = 0;
   const Vector2d outward(std::sin(angle) / arch.half_width_mm, std::cos(angle) / arch.depth_mm);
   return {{arch.half_width_mm * std::sin(angle), kArchCenterZ + arch.depth_mm * std::cos(angle)},
           outward.normalized()};
 }
 
-// One point of a tooth's cross-section in its gum, from the labial gum over the edge to the lingual.
+// One point of a tooth's cross-section in its gum, from the labial gum over the edge to the
+// lingual.
 struct ProfilePoint {
-  double inward_mm;     // of an incisor
-  double thickening;    // part of a molar's greater thickness
-  double from_edge;     // in crown heights: 0 at the edge, 1 at the gum's margin
+  double inward_mm;   // of an incisor
+  double thickening;  // part of a molar's greater thickness
+  double from_edge;   // in crown heights: 0 at the edge, 1 at the gum's margin
   bool gum;
 };
-constexpr ProfilePoint kProfile[] = {{2.6, 0, 1.7, true},  {-0.5, 0, 1.1, true},
-                                     {0.2, 0, 0.98, false}, {-0.1, 0, 0.5, false},
-                                     {0.5, 0, 0.08, false}, {1.0, 0.1, 0, false},
-                                     {2.2, 1, 0.03, false}, {5.5, 0.8, 0.75, false},
-                                     {7.0, 0.8, 1.15, true}, {7.0, 1.0, 1.75, true}};
+constexpr ProfilePoint kProfile[] = {
+    {2.6, 0, 1.7, true},    {-0.5, 0, 1.1, true},  {0.2, 0, 0.98, false}, {-0.1, 0, 0.5, false},
+    {0.5, 0, 0.08, false},  {1.0, 0.1, 0, false},  {2.2, 1, 0.03, false}, {5.5, 0.8, 0.75, false},
+    {7.0, 0.8, 1.15, true}, {7.0, 1.0, 1.75, true}};
 constexpr int kProfileSize = static_cast<int>(std::size(kProfile));
 
 struct ToothColumn {
@@ -144,8 +151,8 @@ void AddTongue(HalfMesh& half) {
   static const Curve kThickness{{0, 0}, {0.05, 1.6}, {0.15, 2.6}, {0.4, 4.0}, {0.7, 5.5}, {1, 7}};
   static const Curve kMiddleY{{0, -61}, {0.2, -60.3}, {0.6, -60}, {1, -64}};
   const Vector3f tip = LinearRgb(palette::kTongue), root = LinearRgb(palette::kMouthInside);
-  std::vector<int> before(kAround + 1, half.AddVertex({0, kMiddleY(0), 81}, tip, Part::kTongue,
-                                                      Carrier::kTongue));
+  std::vector<int> before(
+      kAround + 1, half.AddVertex({0, kMiddleY(0), 81}, tip, Part::kTongue, Carrier::kTongue));
   for (int i = 1; i <= kAlong; ++i) {
     const double t = std::pow(i / static_cast<double>(kAlong), 1.5);
     const Vector3f color = tip + static_cast<float>(SmoothStep(0.2, 1, t)) * (root - tip);
@@ -164,4 +171,4 @@ void AddTongue(HalfMesh& half) {
   }
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

@@ -3,7 +3,7 @@
 
 #include "rig/default_head/half_mesh.h"
 
-namespace articap {
+namespace articap::default_head {
 
 // Vertices at the middle of the incisal edges, on the labial side: landmarks.
 struct Incisors {
@@ -16,4 +16,4 @@ Incisors AddTeeth(HalfMesh& half);
 
 void AddTongue(HalfMesh& half);
 
-}  // namespace articap
+}  // namespace articap::default_head

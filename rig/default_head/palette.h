@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace articap::palette {
+namespace articap::default_head::palette {
 
 // sRGB, 0xRRGGBB
 inline constexpr std::uint32_t kSkin = 0xd9a98c;
@@ -26,4 +26,4 @@ inline constexpr std::uint32_t kTongue = 0xb85c5c;
 inline constexpr std::uint32_t kSpectacles = 0x26262b;
 inline constexpr std::uint32_t kSpectacleMarker = 0xe8e8e8;
 
-}  // namespace articap::palette
+}  // namespace articap::default_head::palette

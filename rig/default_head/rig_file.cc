@@ -5,7 +5,7 @@
 
 #include <toml++/toml.h>
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 // A table of the file whose missing or ill-typed fields are told by table, name and line.
@@ -81,8 +81,7 @@ LipWeightSpec ReadLipWeight(Fields& fields) {
   const std::string lips = fields.Text("lips");
   weight.on_upper = lips == "upper" || lips == "both";
   weight.on_lower = lips == "lower" || lips == "both";
-  if (!weight.on_upper && !weight.on_lower)
-    fields.Miss("lips", "\"upper\", \"lower\" or \"both\"");
+  if (!weight.on_upper && !weight.on_lower) fields.Miss("lips", "\"upper\", \"lower\" or \"both\"");
   weight.along = fields.Pairs("along");
   weight.reach_mm = fields.Number("reach_mm");
   return weight;
@@ -166,4 +165,4 @@ Result<RigFile> ParseRigFile(std::string_view text, std::string_view source_name
   return rig;
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

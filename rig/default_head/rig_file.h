@@ -9,7 +9,7 @@
 #include "core/result.h"
 #include "rig/face_rig.h"
 
-namespace articap {
+namespace articap::default_head {
 
 // What rig.toml says, names not yet looked up.
 struct LipWeightSpec {
@@ -50,4 +50,4 @@ Result<RigFile> ParseRigFile(std::string_view text, std::string_view source_name
 // The one that is built in.
 std::string_view DefaultRigToml();
 
-}  // namespace articap
+}  // namespace articap::default_head

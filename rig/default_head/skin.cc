@@ -10,7 +10,7 @@
 #include "rig/default_head/curve.h"
 #include "rig/default_head/palette.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 using Eigen::Vector2d;
@@ -94,8 +94,8 @@ class SkinMaker {
         const int a = layout.At(column, row), b = layout.At(column + 1, row);
         const int c = layout.At(column + 1, row + 1), d = layout.At(column, row + 1);
         if (a < 0 || b < 0 || c < 0 || d < 0) continue;
-        const Vector2d middle = 0.25 * (layout.nodes[a] + layout.nodes[b] + layout.nodes[c] +
-                                        layout.nodes[d]);
+        const Vector2d middle =
+            0.25 * (layout.nodes[a] + layout.nodes[b] + layout.nodes[c] + layout.nodes[d]);
         const bool crown = row + 2 == layout.num_rows;
         const Region region = crown ? Region::kSkull : RegionOfCell(middle.x(), middle.y());
         half_.AddQuad(a, b, c, d, Part::kSkin, region);
@@ -116,8 +116,8 @@ class SkinMaker {
         const Vector3d from = half_.position(border[k]);
         const Vector3d seam = LipSeam(Fraction(k));
         const Vector3d p = ring > kVermilionRings ? seam : LipProfile(from, seam, k, u);
-        vertices.push_back(half_.AddVertex(p, Mix(kLips, kInside, (u - 0.8) * 2.0), Part::kSkin,
-                                           Carrier::kSkin));
+        vertices.push_back(
+            half_.AddVertex(p, Mix(kLips, kInside, (u - 0.8) * 2.0), Part::kSkin, Carrier::kSkin));
       }
       skin_.mouth_rings.push_back(std::move(vertices));
     }
@@ -136,8 +136,8 @@ class SkinMaker {
     const Vector3d arrive = seam + full * Vector3d(0, 1.6 * sign, upper ? 8.4 : 8.0) +
                             (1 - full) * Vector3d(0.4, 0, 0.6);
     const double v = 1 - u;
-    Vector3d p = v * v * v * border + 3 * v * v * u * leave + 3 * v * u * u * arrive +
-                 u * u * u * seam;
+    Vector3d p =
+        v * v * v * border + 3 * v * v * u * leave + 3 * v * u * u * arrive + u * u * u * seam;
     if (f == 0) p.x() = 0;
     return p;
   }
@@ -148,9 +148,9 @@ class SkinMaker {
     };
     // From behind the seam round the vestibule, outside of the teeth, to the throat.
     static constexpr BagRing kRings[] = {
-        {25.0, 1.2, 1.2, 96.4, 84.0, 0.0},  {26.0, 5.0, 4.5, 94.0, 80.5, 0.1},
-        {28.0, 11, 9.5, 92.0, 75.0, 0.3},   {30.0, 17, 14, 84, 66.0, 0.5},
-        {31.0, 18, 17, 70, 57.0, 0.75},     {24.0, 15, 15, 50, 46.0, 1.0}};
+        {25.0, 1.2, 1.2, 96.4, 84.0, 0.0}, {26.0, 5.0, 4.5, 94.0, 80.5, 0.1},
+        {28.0, 11, 9.5, 92.0, 75.0, 0.3},  {30.0, 17, 14, 84, 66.0, 0.5},
+        {31.0, 18, 17, 70, 57.0, 0.75},    {24.0, 15, 15, 50, 46.0, 1.0}};
     for (const BagRing& bag : kRings) {
       std::vector<int> vertices;
       const Vector3f color =
@@ -161,8 +161,8 @@ class SkinMaker {
         const double height = std::pow(1 - std::pow(across, 2.5), 0.4);
         const double y = LipSeam(f).y() + height * (skin_.IsUpper(k) ? bag.up : -bag.down);
         const double z = bag.front_z + (bag.side_z - bag.front_z) * std::pow(across, 1.8);
-        vertices.push_back(half_.AddVertex({bag.half_width * across, y, z}, color, Part::kSkin,
-                                           Carrier::kSkin));
+        vertices.push_back(
+            half_.AddVertex({bag.half_width * across, y, z}, color, Part::kSkin, Carrier::kSkin));
       }
       skin_.mouth_rings.push_back(std::move(vertices));
     }
@@ -184,8 +184,8 @@ class SkinMaker {
       rim.push_back(half_.AddVertex(q, Mix(half_.vertices[vertex].color, color, 0.5), Part::kSkin,
                                     Carrier::kSkin));
       const Vector3d opening(30.5, 13.8, q.z() - 1.5);
-      orbit.push_back(half_.AddVertex(q + 0.22 * (opening - q), color, Part::kSkin,
-                                      Carrier::kSkin));
+      orbit.push_back(
+          half_.AddVertex(q + 0.22 * (opening - q), color, Part::kSkin, Carrier::kSkin));
     }
     skin_.eye_rings.push_back(std::move(rim));
     skin_.eye_rings.push_back(std::move(orbit));
@@ -197,8 +197,7 @@ class SkinMaker {
     for (std::size_t ring = 0; ring + 1 < skin_.mouth_rings.size(); ++ring)
       for (int k = 0; k + 1 < skin_.num_mouth_columns(); ++k) {
         const Region outside = skin_.IsUpper(k) ? Region::kUpperLip : Region::kLowerLip;
-        const Region region =
-            static_cast<int>(ring) < skin_.seam_ring ? outside : Region::kInside;
+        const Region region = static_cast<int>(ring) < skin_.seam_ring ? outside : Region::kInside;
         const std::vector<int>& outer = skin_.mouth_rings[ring];
         const std::vector<int>& inner = skin_.mouth_rings[ring + 1];
         half_.AddQuad(outer[k], inner[k], inner[k + 1], outer[k + 1], Part::kSkin, region);
@@ -226,4 +225,4 @@ double Skin::MouthFraction(int k) const {
 
 Skin AddSkin(const FaceShape& shape, HalfMesh& half) { return SkinMaker(shape, half).Make(); }
 
-}  // namespace articap
+}  // namespace articap::default_head

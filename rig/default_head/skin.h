@@ -7,14 +7,15 @@
 #include "rig/default_head/half_mesh.h"
 #include "rig/default_head/skin_layout.h"
 
-namespace articap {
+namespace articap::default_head {
 
 // The skin as part of a half mesh: vertex i is node i of the layout, and further rings follow those
 // of the layout, inwards.
 struct Skin {
   SkinLayout layout;
   // Like SkinLayout::mouth_rings, continued over the vermilion to the seam and round the mouth bag.
-  // The seam ring holds the upper lip's vertices, the corner, and the lower lip's, at the same points.
+  // The seam ring holds the upper lip's vertices, the corner, and the lower lip's, at the same
+  // points.
   std::vector<std::vector<int>> mouth_rings;
   int border_ring = 0;
   int seam_ring = 0;
@@ -31,4 +32,4 @@ struct Skin {
 // Adds the skin to an empty half mesh.
 Skin AddSkin(const FaceShape& shape, HalfMesh& half);
 
-}  // namespace articap
+}  // namespace articap::default_head

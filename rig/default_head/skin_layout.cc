@@ -10,15 +10,16 @@
 #include "core/check.h"
 #include "rig/default_head/contours.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 // Sections of the columns and levels of the rows before relaxation: some 3 mm apart in the face.
 std::vector<double> ColumnSections() {
   std::vector<double> sections;
   for (int i = 0; i <= 10; ++i) sections.push_back(0.13 * i);
-  for (const double s : {1.45, 1.6, 1.75, 1.9, 2.06, 2.22, 2.4, 2.6, 2.85, 3.1, 3.35, 3.6, 3.9,
-                         4.2, 4.5, 4.85, 5.3, 5.8, 6.4, BaseSurface::kBackSection})
+  for (const double s :
+       {1.45, 1.6, 1.75, 1.9, 2.06, 2.22, 2.4, 2.6, 2.85, 3.1,
+        3.35, 3.6, 3.9,  4.2, 4.5,  4.85, 5.3, 5.8, 6.4,  BaseSurface::kBackSection})
     sections.push_back(s);
   return sections;
 }
@@ -27,13 +28,15 @@ std::vector<double> RowLevels() {
   std::vector<double> levels{0, 0.5, 1, 1.4, 1.8, 2.2, 2.6, 3, 3.35, 3.7, 4, 4.25, 4.5, 4.75};
   while (levels.back() < 11.0)  // finer on the steep underside of the nose
     levels.push_back(levels.back() + (levels.back() > 7.95 && levels.back() < 8.44 ? 0.08 : 0.16));
-  for (const double t : {11.4, 11.75, 12.1, 12.5, 12.9, 13.4, 14.0, 14.6, 15.3, BaseSurface::kCrownLevel})
+  for (const double t :
+       {11.4, 11.75, 12.1, 12.5, 12.9, 13.4, 14.0, 14.6, 15.3, BaseSurface::kCrownLevel})
     levels.push_back(t);
   return levels;
 }
 
 int LastBelow(const std::vector<double>& values, double bound) {
-  return static_cast<int>(std::upper_bound(values.begin(), values.end(), bound) - values.begin()) - 1;
+  return static_cast<int>(std::upper_bound(values.begin(), values.end(), bound) - values.begin()) -
+         1;
 }
 
 constexpr int kMouthFreeRings = 4;
@@ -195,7 +198,8 @@ class LayoutMaker {
     const int corner = layout_.mouth_corner;
     for (int k = 0; k <= 2 * corner; ++k) {
       const double fraction = 1 - std::abs(k - corner) / static_cast<double>(corner);
-      Eigen::Vector2d at = front(VermilionBorder(k <= corner ? Lip::kUpper : Lip::kLower, fraction));
+      Eigen::Vector2d at =
+          front(VermilionBorder(k <= corner ? Lip::kUpper : Lip::kLower, fraction));
       if (k == 0 || k == 2 * corner) at.x() = 0;
       hold(border[k], at);
     }
@@ -223,7 +227,8 @@ class LayoutMaker {
         if (column + 1 == layout_.num_columns) continue;
         const int beside = layout_.At(column + 1, row);
         if (beside >= 0)
-          springs.Add(node, beside, gap(levels_, row) / (sections_[column + 1] - sections_[column]));
+          springs.Add(node, beside,
+                      gap(levels_, row) / (sections_[column + 1] - sections_[column]));
       }
   }
 
@@ -262,4 +267,4 @@ class LayoutMaker {
 
 SkinLayout MakeSkinLayout(const BaseSurface& surface) { return LayoutMaker(surface).Make(); }
 
-}  // namespace articap
+}  // namespace articap::default_head

@@ -8,7 +8,7 @@
 
 #include "rig/default_head/palette.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 using Eigen::Vector3d;
@@ -23,8 +23,7 @@ void AddBar(const std::vector<Vector3d>& path, bool closed, double radius_mm, Ha
     const Vector3d& before = path[closed ? (i + size - 1) % size : std::max(i - 1, 0)];
     const Vector3d& after = path[closed ? (i + 1) % size : std::min(i + 1, size - 1)];
     const Vector3d tangent = (after - before).normalized();
-    const Vector3d reference =
-        std::abs(tangent.z()) < 0.8 ? Vector3d::UnitZ() : Vector3d::UnitY();
+    const Vector3d reference = std::abs(tangent.z()) < 0.8 ? Vector3d::UnitZ() : Vector3d::UnitY();
     const Vector3d u = tangent.cross(reference).normalized();
     const Vector3d v = tangent.cross(u);
     rings.emplace_back();
@@ -45,13 +44,13 @@ void AddBar(const std::vector<Vector3d>& path, bool closed, double radius_mm, Ha
     }
 }
 
-// A marker as an octahedron; the half of one where it sits on the midline. Returns its front vertex.
+// A marker as an octahedron; the half of one where it sits on the midline. Returns its front
+// vertex.
 int AddMarker(const Vector3d& center, HalfMesh& half) {
   constexpr double kRadius_mm = 2;  // markers of 4 mm
   const auto add = [&](double x, double y, double z) {
     return half.AddVertex(center + kRadius_mm * Vector3d(x, y, z),
-                          LinearRgb(palette::kSpectacleMarker), Part::kSpectacles,
-                          Carrier::kSkull);
+                          LinearRgb(palette::kSpectacleMarker), Part::kSpectacles, Carrier::kSkull);
   };
   const int front = add(0, 0, 1), back = add(0, 0, -1), up = add(0, 1, 0), down = add(0, -1, 0);
   const int left = add(1, 0, 0);
@@ -61,7 +60,8 @@ int AddMarker(const Vector3d& center, HalfMesh& half) {
   face(front, left, up), face(front, down, left), face(back, up, left), face(back, left, down);
   if (center.x() > 0) {
     const int right = add(-1, 0, 0);
-    face(front, up, right), face(front, right, down), face(back, right, up), face(back, down, right);
+    face(front, up, right), face(front, right, down), face(back, right, up),
+        face(back, down, right);
   }
   return front;
 }
@@ -87,12 +87,13 @@ std::array<int, 3> AddSpectacles(HalfMesh& half) {
   const Vector3d bridge(0, 20, 105.5);
   AddBar({RimPoint(2.55), Vector3d(5, 19.4, 105.0), bridge}, false, kBarRadius_mm, half);
   const Vector3d corner = RimPoint(0.55);
-  const std::vector<Vector3d> temple{corner,         {64, 22.5, 86}, {70.5, 23, 74}, {74, 23.5, 50},
-                                     {76.5, 24, 20}, {78.5, 24, 0},  {78.5, 22, -14}, {78, 8, -31}};
+  const std::vector<Vector3d> temple{corner,          {64, 22.5, 86}, {70.5, 23, 74},
+                                     {74, 23.5, 50},  {76.5, 24, 20}, {78.5, 24, 0},
+                                     {78.5, 22, -14}, {78, 8, -31}};
   AddBar(temple, false, kBarRadius_mm, half);
   const Vector3d on_temple = temple[3] + Vector3d(2.5, 0, 0);
   return {AddMarker(bridge + Vector3d(0, 0, 2.5), half),
           AddMarker(corner + Vector3d(0, 0, 2.5), half), AddMarker(on_temple, half)};
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

@@ -15,7 +15,7 @@
 #include "core/check.h"
 #include "rig/default_head/curve.h"
 
-namespace articap {
+namespace articap::default_head {
 namespace {
 
 using Eigen::Vector3d;
@@ -23,8 +23,8 @@ using Eigen::Vector3d;
 // What is left of a lip's weight on the rings of the mouth bag behind the seam.
 constexpr double kBagDecay[] = {1.0, 0.95, 0.85, 0.4, 0.1, 0, 0};
 
-// From 1 to 0; of all smooth steps the cubic one's slope is mildest, so that skin between a moving lip
-// and a resting chin is squeezed least.
+// From 1 to 0; of all smooth steps the cubic one's slope is mildest, so that skin between a moving
+// lip and a resting chin is squeezed least.
 double Decay(double distance) {
   const double u = std::clamp(distance, 0.0, 1.0);
   return 1 - u * u * (3 - 2 * u);
@@ -46,8 +46,8 @@ std::optional<double> BoundJawWeight(double section, double level) {
   return std::nullopt;
 }
 
-// Half cotangents of a triangle's angles, opposite to each corner; not below a small positive value,
-// so that the harmonic function keeps between its bounds.
+// Half cotangents of a triangle's angles, opposite to each corner; not below a small positive
+// value, so that the harmonic function keeps between its bounds.
 std::array<double, 3> CotanWeights(const HalfMesh& half, const Eigen::Vector3i& corners) {
   std::array<double, 3> weights;
   for (int i = 0; i < 3; ++i) {
@@ -59,8 +59,8 @@ std::array<double, 3> CotanWeights(const HalfMesh& half, const Eigen::Vector3i& 
   return weights;
 }
 
-// Stiffness of a membrane against that of a plate, 1/mm^2: over some 30 mm they are alike. The plate
-// keeps creases away from the bound places, the membrane overshoots.
+// Stiffness of a membrane against that of a plate, 1/mm^2: over some 30 mm they are alike. The
+// plate keeps creases away from the bound places, the membrane overshoots.
 constexpr double kTension = 1.0 / (30.0 * 30.0);
 
 void FillHarmonic(const HalfMesh& half, const std::vector<bool>& in_domain,
@@ -94,7 +94,8 @@ void FillHarmonic(const HalfMesh& half, const std::vector<bool>& in_domain,
   const Eigen::VectorXd inverse_area =
       area.unaryExpr([](double a) { return a > 0 ? 1 / std::max(a, 0.5) : 0; });
   const Eigen::SparseMatrix<double> bending =
-      Eigen::SparseMatrix<double>(laplacian.transpose()) * inverse_area.asDiagonal() * laplacian + kTension * laplacian;
+      Eigen::SparseMatrix<double>(laplacian.transpose()) * inverse_area.asDiagonal() * laplacian +
+      kTension * laplacian;
   std::vector<Eigen::Triplet<double>> free_entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   for (int column = 0; column < num_values; ++column)
@@ -206,8 +207,7 @@ std::vector<double> LipWeights(const LipWeightSpec& spec, const LipDistances& di
   };
   std::vector<double> on_layout;
   for (const LipDistances::Nearest& nearest : distances.FromBorder(spec.on_upper, spec.on_lower))
-    on_layout.push_back(at_column(nearest.column) *
-                        Decay(nearest.distance_mm / spec.reach_mm));
+    on_layout.push_back(at_column(nearest.column) * Decay(nearest.distance_mm / spec.reach_mm));
   // The border of the other lip does not move, whatever the way round the corner.
   const std::vector<int>& border = skin.mouth_rings[skin.border_ring];
   for (int k = 0; k < skin.num_mouth_columns(); ++k) on_layout[border[k]] = at_column(k);
@@ -253,4 +253,4 @@ std::vector<double> JawWeights(const HalfMesh& half, const Skin& skin) {
   return weights;
 }
 
-}  // namespace articap
+}  // namespace articap::default_head

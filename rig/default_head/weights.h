@@ -7,7 +7,7 @@
 #include "rig/default_head/rig_file.h"
 #include "rig/default_head/skin.h"
 
-namespace articap {
+namespace articap::default_head {
 
 // Distances over the skin outside of the vermilion, by which lip weights and lip thickness decay.
 class LipDistances {
@@ -18,12 +18,12 @@ class LipDistances {
     double distance_mm;
     int column;  // of the border ring
   };
-  // For every node of the skin's layout, the nearest vertex of the vermilion border (of both lips, or
-  // of one), along the surface.
+  // For every node of the skin's layout, the nearest vertex of the vermilion border (of both lips,
+  // or of one), along the surface.
   std::vector<Nearest> FromBorder(bool upper, bool lower) const;
 
-  // Takes the edges of nearest-vertex regions out of a field on the layout's nodes; the border keeps
-  // its values.
+  // Takes the edges of nearest-vertex regions out of a field on the layout's nodes; the border
+  // keeps its values.
   void Smooth(std::vector<double>& values) const;
 
  private:
@@ -44,4 +44,4 @@ std::vector<double> LipWeights(const LipWeightSpec& spec, const LipDistances& di
 // mouth, 0 above the cheekbones and on the neck, a harmonic function between them.
 std::vector<double> JawWeights(const HalfMesh& half, const Skin& skin);
 
-}  // namespace articap
+}  // namespace articap::default_head
