@@ -16,8 +16,8 @@ CsvRows::CsvRows(std::string_view text, std::string source_name)
 std::string CsvRows::Where() const { return fmt::format("{}:{}", source_name_, row_line_); }
 
 std::size_t CsvRows::CountLinesLeft() const {
-  return static_cast<std::size_t>(
-             std::count(text_.begin() + static_cast<std::ptrdiff_t>(position_), text_.end(), '\n')) +
+  return static_cast<std::size_t>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(position_),
+                                             text_.end(), '\n')) +
          1;
 }
 
@@ -67,8 +67,8 @@ Result<std::string_view> CsvRows::QuotedCell(std::size_t cell_index) {
   line_ += static_cast<int>(std::count(cell.begin(), cell.end(), '\n'));
   if (text_.substr(position_).starts_with("\r\n")) ++position_;
   if (position_ < text_.size() && text_[position_] != ',' && text_[position_] != '\n')
-    return Fail(fmt::format("{}: text follows a closing quote; double the quotes inside a cell",
-                            Where()));
+    return Fail(
+        fmt::format("{}: text follows a closing quote; double the quotes inside a cell", Where()));
   return std::string_view(cell);
 }
 
