@@ -24,6 +24,10 @@ using Eigen::Vector3f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Rays that leave a surface start this far off it, so that they do not meet it again.
 constexpr float kLiftOff_mm = 0.02f;
+// How far over its triangle the curved surface of smooth normals may rise.
+constexpr float kMaxBulge_mm = 0.4f;
+// Smooth normals further from the triangle's own than its angle are not used.
+constexpr float kMinSmoothCosine = 0.2f;
 
 // A point of a surface that a ray of sight has found.
 struct SurfacePoint {
@@ -181,7 +185,9 @@ class TracedScene {
     Vector3f bulge = Vector3f::Zero();
     for (const int corner : {0, 1, 2}) {
       const int vertex = triangle[corner];
-      const Vector3f corner_normal = side * normals_[hit.geomID][vertex].cast<float>();
+      Vector3f corner_normal = side * normals_[hit.geomID][vertex].cast<float>();
+      // Over sharp edges and folds a smooth normal says nothing about this triangle.
+      if (corner_normal.dot(facet_normal) < kMinSmoothCosine) corner_normal = facet_normal;
       const Vector3f arm = surface.position_mm - mesh.mesh.vertices[vertex].cast<float>();
       bulge -= weights[corner] * std::min(0.0f, arm.dot(corner_normal)) * corner_normal;
       normal += weights[corner] * corner_normal;
@@ -193,6 +199,9 @@ class TracedScene {
     if (away > 0) surface.normal = (surface.normal - 1.001f * away * direction).normalized();
     surface.color = color;
     surface.material = &mesh.material;
+    // At sharp edges the curved surface is a fiction that reaches through thin walls.
+    const float height_mm = bulge.norm();
+    if (height_mm > kMaxBulge_mm) bulge *= kMaxBulge_mm / height_mm;
     surface.start_mm = surface.position_mm + bulge + kLiftOff_mm * facet_normal;
   }
 
@@ -303,9 +312,9 @@ Vector3f PixelLight(const Shader& shader, const Scene& scene, const ViewCamera& 
 }  // namespace
 
 std::vector<DirectionalLight> PortraitLights() {
-  return {{{0.55, 0.75, 0.95}, {0.72f, 0.69f, 0.65f}, 0.16},
-          {{-0.9, 0.15, 0.8}, {0.20f, 0.215f, 0.24f}, 0.25},
-          {{-0.6, 0.7, -0.8}, {0.34f, 0.35f, 0.37f}, 0.12}};
+  return {{{0.55, 0.75, 0.95}, {0.98f, 0.93f, 0.86f}, 0.16},
+          {{-0.9, 0.15, 0.8}, {0.25f, 0.265f, 0.29f}, 0.25},
+          {{-0.6, 0.7, -0.8}, {0.42f, 0.43f, 0.45f}, 0.12}};
 }
 
 LinearPicture RenderLinear(const Scene& scene, const ViewCamera& camera,

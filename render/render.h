@@ -42,14 +42,14 @@ struct DirectionalLight {
   double angular_radius_rad = 0.1;                     // 0: hard shadows
 };
 
-// Soft key from the upper left of the picture, fill from the right, rim from behind.
+// Soft key from the upper right of the picture, fill from the left, rim from behind.
 std::vector<DirectionalLight> PortraitLights();
 
 struct Scene {
   std::vector<RenderMesh> meshes;
   std::vector<RenderSphere> spheres;
   std::vector<DirectionalLight> lights = PortraitLights();
-  Eigen::Vector3f ambient = Eigen::Vector3f(0.30f, 0.31f, 0.33f);  // from all sides, linear RGB
+  Eigen::Vector3f ambient = Eigen::Vector3f(0.29f, 0.30f, 0.32f);  // from all sides, linear RGB
   Eigen::Vector3f background = Eigen::Vector3f(0.84f, 0.86f, 0.88f);
 };
 

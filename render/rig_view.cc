@@ -54,7 +54,7 @@ double HeightToShow(double box_width_mm, double box_height_mm, int width, int he
 Material MaterialOfPart(std::string_view part_name) {
   if (part_name == "teeth") return {0.7f, 60.0f, 0.2f, 0.0f};
   if (part_name == "tongue") return {0.5f, 40.0f, 0.8f, 0.0f};
-  if (part_name == "eyes") return {1.0f, 250.0f, 0.0f, 0.0f};
+  if (part_name.starts_with("eyes")) return {1.0f, 250.0f, 0.0f, 0.0f};
   if (part_name == "spectacles") return {0.6f, 80.0f, 0.0f, 0.0f};
   if (part_name == "hair" || part_name == "brows" || part_name == "lashes")
     return {0.1f, 12.0f, 0.0f, 0.0f};
