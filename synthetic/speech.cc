@@ -262,17 +262,22 @@ SyntheticSpeech SynthesizeSpeech(const FaceRig& rig, const SyntheticSpeechOption
 }
 
 TextGrid LabelsOf(const Utterances& utterances) {
-  TextGrid grid{0, utterances.duration_s, {{"words", {}}, {"phones", {}}}};
+  TextGridTier words{.name = "words", .labels = {}};
   double end_s = 0;
   for (const WordToken& word : utterances.words) {
-    if (word.begin_s > end_s) grid.tiers[0].intervals.push_back({end_s, word.begin_s, ""});
-    grid.tiers[0].intervals.push_back({word.begin_s, word.end_s, word.spelling});
+    if (word.begin_s > end_s) words.labels.push_back({end_s, word.begin_s, ""});
+    words.labels.push_back({word.begin_s, word.end_s, word.spelling});
     end_s = word.end_s;
   }
-  if (end_s < utterances.duration_s)
-    grid.tiers[0].intervals.push_back({end_s, utterances.duration_s, ""});
+  if (end_s < utterances.duration_s) words.labels.push_back({end_s, utterances.duration_s, ""});
+
+  TextGridTier phones{.name = "phones", .labels = {}};
   for (const PhoneToken& token : utterances.phones)
-    grid.tiers[1].intervals.push_back({token.begin_s, token.end_s, std::string(token.name())});
+    phones.labels.push_back({token.begin_s, token.end_s, std::string(token.name())});
+
+  TextGrid grid;
+  grid.end_s = utterances.duration_s;
+  grid.tiers = {std::move(words), std::move(phones)};
   return grid;
 }
 

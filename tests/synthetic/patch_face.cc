@@ -113,16 +113,14 @@ FaceRig MakePatchFace() {
                      .thrust_parameter = 8,
                      .shift_parameter = 9};
   const auto at = [](int sheet, int column, int row) { return sheet + row * kColumns + column; };
-  const std::vector<Landmark> face = {{"upper_lip_seam", at(upper, kMiddle, 0)},
-                                      {"lower_lip_seam", at(lower, kMiddle, 0)},
-                                      {"upper_lip", at(upper, kMiddle, 1)},
-                                      {"lower_lip", at(lower, kMiddle, 1)},
+  const std::vector<Landmark> face = {{"upper_lip_center", at(upper, kMiddle, 1)},
+                                      {"lower_lip_center", at(lower, kMiddle, 1)},
                                       {"left_mouth_corner", at(upper, kMiddle + 3, 0)},
                                       {"right_mouth_corner", at(upper, kMiddle - 3, 0)},
-                                      {"left_lower_lip", at(lower, kMiddle + 2, 1)},
-                                      {"right_lower_lip", at(lower, kMiddle - 2, 1)},
+                                      {"lower_lip_left", at(lower, kMiddle + 2, 1)},
+                                      {"lower_lip_right", at(lower, kMiddle - 2, 1)},
                                       {"chin", at(lower, kMiddle, 7)},
-                                      {"left_jaw", at(lower, kMiddle + 3, 6)},
+                                      {"jaw_left", at(lower, kMiddle + 3, 6)},
                                       {"nose_tip", at(upper, kMiddle, 5)}};
   rig.landmarks.insert(rig.landmarks.end(), face.begin(), face.end());
   IdentitySlider width{"face_width", -1, 1, "+1 is 10 % wider", {}};
@@ -141,8 +139,9 @@ MarkerSet PatchFaceMarkers() {
     const std::string number = std::to_string(i);
     set.markers.push_back({"s" + number, true, false, false, "spectacles_" + number, "", 0});
   }
-  for (const char* landmark : {"upper_lip", "lower_lip", "left_mouth_corner", "right_mouth_corner",
-                               "left_lower_lip", "right_lower_lip", "chin", "left_jaw", "nose_tip"})
+  for (const char* landmark :
+       {"upper_lip_center", "lower_lip_center", "left_mouth_corner", "right_mouth_corner",
+        "lower_lip_left", "lower_lip_right", "chin", "jaw_left", "nose_tip"})
     set.markers.push_back({landmark, false, false, true, landmark, "", 2});
   return set;
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "synthetic/lip_gauge.h"
+#include "synthetic/text_grid_writer.h"
 #include "tests/synthetic/patch_face.h"
 
 namespace articap {
@@ -138,10 +139,10 @@ TEST(SynthesizeSpeechTest, LabelsFillTheTakeWithoutGaps) {
   const TextGrid grid = LabelsOf(speech.utterances);
   ASSERT_EQ(grid.tiers.size(), 2u);
   for (const TextGridTier& tier : grid.tiers) {
-    double end_s = grid.begin_s;
-    for (const TextGridInterval& interval : tier.intervals) {
-      EXPECT_EQ(interval.begin_s, end_s);
-      EXPECT_GT(interval.end_s, interval.begin_s);
+    double end_s = grid.start_s;
+    for (const TextGridLabel& interval : tier.labels) {
+      EXPECT_EQ(interval.start_s, end_s);
+      EXPECT_GT(interval.end_s, interval.start_s);
       end_s = interval.end_s;
     }
     EXPECT_EQ(end_s, grid.end_s);
