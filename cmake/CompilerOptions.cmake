@@ -20,6 +20,10 @@ endif()
 function(articap_target_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                          -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
+  # GCC 12 reports std::string's operator+ as overlapping memory (GCC bug 105651).
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-restrict)
+  endif()
   if(ARTICAP_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
