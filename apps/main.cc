@@ -18,6 +18,7 @@ const std::vector<articap::VerbEntry>& Verbs() {
       {"info", "what is in a marker file: markers, rate, frames, gaps, units",
        articap::InfoCommand},
       {"convert", "between marker formats", articap::ConvertCommand},
+      {"rig", "talking heads: info, render", articap::RigCommand},
   };
   return verbs;
 }

@@ -13,6 +13,9 @@ using Verb = ExitCode (*)(const std::vector<std::string>& arguments);
 
 ExitCode InfoCommand(const std::vector<std::string>& arguments);
 ExitCode ConvertCommand(const std::vector<std::string>& arguments);
+ExitCode RigCommand(const std::vector<std::string>& arguments);
+ExitCode RigInfoCommand(const std::vector<std::string>& arguments);
+ExitCode RigRenderCommand(const std::vector<std::string>& arguments);
 
 struct VerbEntry {
   const char* name;
