@@ -40,9 +40,6 @@ struct TextGrid {
 Result<TextGrid> ParseTextGrid(std::string_view bytes, const std::string& source_name);
 Result<TextGrid> ReadTextGrid(const std::filesystem::path& path);
 
-// The long text form, UTF-8; times to the microsecond.
-std::string WriteTextGrid(const TextGrid& grid);
-
 // The tier of that name; where the name is empty, the one interval tier whose name says phones
 // ("phones", "phone", "segments", "MAU", "Anna - phones", ...). The error names the tiers there
 // are.

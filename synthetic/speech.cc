@@ -240,21 +240,17 @@ SyntheticSpeech SynthesizeSpeech(const FaceRig& rig, const SyntheticSpeechOption
 }
 
 TextGrid LabelsOf(const Utterances& utterances) {
-  TextGrid grid;
-  grid.end_s = utterances.duration_s;
-  grid.tiers.resize(2);
-  grid.tiers[0].name = "words";
-  grid.tiers[1].name = "phones";
+  TextGrid grid{0, utterances.duration_s, {{"words", {}}, {"phones", {}}}};
   double end_s = 0;
   for (const WordToken& word : utterances.words) {
-    if (word.begin_s > end_s) grid.tiers[0].labels.push_back({end_s, word.begin_s, ""});
-    grid.tiers[0].labels.push_back({word.begin_s, word.end_s, word.spelling});
+    if (word.begin_s > end_s) grid.tiers[0].intervals.push_back({end_s, word.begin_s, ""});
+    grid.tiers[0].intervals.push_back({word.begin_s, word.end_s, word.spelling});
     end_s = word.end_s;
   }
   if (end_s < utterances.duration_s)
-    grid.tiers[0].labels.push_back({end_s, utterances.duration_s, ""});
+    grid.tiers[0].intervals.push_back({end_s, utterances.duration_s, ""});
   for (const PhoneToken& token : utterances.phones)
-    grid.tiers[1].labels.push_back({token.begin_s, token.end_s, std::string(token.name())});
+    grid.tiers[1].intervals.push_back({token.begin_s, token.end_s, std::string(token.name())});
   return grid;
 }
 

@@ -213,23 +213,5 @@ TEST(TextGridTest, RealSentence) {
   }
 }
 
-TEST(TextGrid, WrittenTextIsReadBack) {
-  TextGrid grid;
-  grid.end_s = 1.25;
-  grid.tiers = {{"words \"1\"", Kind::kIntervals, {{0, 0.5, "\u00e9t\u00e9"}, {0.5, 1.25, ""}}},
-                {"bursts", Kind::kPoints, {{0.75, 0.75, "p"}}}};
-  const std::string text = WriteTextGrid(grid);
-  const auto read = ParseTextGrid(text, "written");
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_THAT(read->warnings, IsEmpty());
-  ASSERT_THAT(read->tiers, SizeIs(2));
-  EXPECT_EQ(read->tiers[0].name, "words \"1\"");
-  EXPECT_THAT(read->tiers[0].labels,
-              ElementsAre(Label(0, 0.5, "\u00e9t\u00e9"), Label(0.5, 1.25, "")));
-  EXPECT_EQ(read->tiers[1].kind, Kind::kPoints);
-  EXPECT_THAT(read->tiers[1].labels, ElementsAre(Label(0.75, 0.75, "p")));
-  EXPECT_EQ(WriteTextGrid(*read), text);
-}
-
 }  // namespace
 }  // namespace articap
