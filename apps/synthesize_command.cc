@@ -10,6 +10,7 @@
 #include "core/marker_io.h"
 #include "synthetic/noise.h"
 #include "synthetic/speaker.h"
+#include "synthetic/text_grid_writer.h"
 
 namespace articap {
 namespace {
