@@ -2,7 +2,7 @@
 #include "fitting/box_qp.h"
 
 #include <Eigen/Cholesky>
-#include <array>
+#include <utility>
 #include <vector>
 
 #include "core/check.h"
@@ -10,15 +10,14 @@
 namespace articap {
 namespace {
 
-enum class Place : unsigned char { kFree, kLower, kUpper };
-
-// Minimiser over the free variables, the others fixed at x.
+// Sets the free variables of x to the minimiser for the others as they are.
 void SolveFree(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
                const std::vector<int>& free, Eigen::VectorXd* x) {
   const int num_free = static_cast<int>(free.size());
   // On the stack for the sizes that occur every frame.
   constexpr int kStackSize = 16;
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kStackSize, kStackSize>;
+  for (const int i : free) (*x)[i] = 0;
   const Eigen::VectorXd at_fixed = gradient + hessian * *x;
   const auto solve = [&](auto reduced, auto right) {
     for (int i = 0; i < num_free; ++i) {
@@ -36,49 +35,72 @@ void SolveFree(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
     solve(Eigen::MatrixXd(num_free, num_free), Eigen::VectorXd(num_free));
 }
 
+// How far towards `target` the free variables of x can go, and which of them stops it, or -1.
+std::pair<double, int> StepToBoundary(const Eigen::VectorXd& x, const Eigen::VectorXd& target,
+                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                                      const std::vector<int>& free) {
+  double part = 1;
+  int blocking = -1;
+  for (const int i : free) {
+    const double bound = target[i] < lower[i] ? lower[i] : upper[i];
+    if (target[i] >= lower[i] && target[i] <= upper[i]) continue;
+    const double reachable = (bound - x[i]) / (target[i] - x[i]);
+    if (reachable < part) {
+      part = reachable;
+      blocking = i;
+    }
+  }
+  return {part, blocking};
+}
+
+// The fixed variable whose objective falls fastest into the box, or -1 where none does.
+int WorstFixed(const Eigen::VectorXd& x, const Eigen::VectorXd& slope, const Eigen::VectorXd& lower,
+               const Eigen::VectorXd& upper, const std::vector<bool>& is_free) {
+  int worst = -1;
+  double worst_slope = 0;
+  for (int i = 0; i < x.size(); ++i) {
+    if (is_free[i] || lower[i] == upper[i]) continue;
+    const double inward = x[i] == lower[i] ? -slope[i] : slope[i];
+    if (inward > worst_slope) {
+      worst_slope = inward;
+      worst = i;
+    }
+  }
+  return worst;
+}
+
 }  // namespace
 
 Eigen::VectorXd SolveBoxQp(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
                            const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   const int size = static_cast<int>(gradient.size());
-  std::vector<Place> places(size, Place::kFree);
-  for (int i = 0; i < size; ++i) {
-    ARTICAP_CHECK(lower[i] <= 0 && upper[i] >= 0);
-    if (lower[i] == upper[i]) places[i] = Place::kLower;
-  }
+  ARTICAP_CHECK((lower.array() <= 0).all() && (upper.array() >= 0).all());
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
+  std::vector<bool> is_free(size);
+  for (int i = 0; i < size; ++i)
+    is_free[i] = !((lower[i] == 0 && gradient[i] >= 0) || (upper[i] == 0 && gradient[i] <= 0));
 
-  Eigen::VectorXd x(size);
   std::vector<int> free;
-  // Each round fixes or frees a variable; cycles are cut off, and what they end with is clamped.
-  for (int round = 0; round < 3 * size + 3; ++round) {
+  // Each round fixes or frees one variable, never raising the objective. More rounds than this are
+  // taken by rounding alone, at a point as good as the minimum.
+  for (int round = 0; round < 10 * size; ++round) {
     free.clear();
-    for (int i = 0; i < size; ++i) {
-      x[i] = places[i] == Place::kFree ? 0 : places[i] == Place::kLower ? lower[i] : upper[i];
-      if (places[i] == Place::kFree) free.push_back(i);
-    }
-    if (!free.empty()) SolveFree(hessian, gradient, free, &x);
+    for (int i = 0; i < size; ++i)
+      if (is_free[i]) free.push_back(i);
+    Eigen::VectorXd target = x;
+    if (!free.empty()) SolveFree(hessian, gradient, free, &target);
 
-    bool left_the_box = false;
-    for (const int i : free) {
-      if (x[i] < lower[i]) places[i] = Place::kLower;
-      if (x[i] > upper[i]) places[i] = Place::kUpper;
-      left_the_box |= places[i] != Place::kFree;
+    const auto [part, blocking] = StepToBoundary(x, target, lower, upper, free);
+    if (blocking >= 0) {
+      x += part * (target - x);
+      x[blocking] = target[blocking] < lower[blocking] ? lower[blocking] : upper[blocking];
+      is_free[blocking] = false;
+      continue;
     }
-    if (left_the_box) continue;
-
-    const Eigen::VectorXd slope = gradient + hessian * x;
-    int worst = -1;
-    double worst_slope = 0;
-    for (int i = 0; i < size; ++i) {
-      if (places[i] == Place::kFree || lower[i] == upper[i]) continue;
-      const double inward = places[i] == Place::kLower ? -slope[i] : slope[i];
-      if (inward > worst_slope) {
-        worst_slope = inward;
-        worst = i;
-      }
-    }
-    if (worst < 0) return x;
-    places[worst] = Place::kFree;
+    x = target;
+    const int worst = WorstFixed(x, gradient + hessian * x, lower, upper, is_free);
+    if (worst < 0) break;
+    is_free[worst] = true;
   }
   return x.cwiseMax(lower).cwiseMin(upper);
 }

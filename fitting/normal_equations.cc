@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fitting/normal_equations.h"
 
+#include <algorithm>
+
 namespace articap {
 
 NormalEquationBuilder::NormalEquationBuilder(const VirtualMarkerEvaluator& evaluator,
@@ -40,6 +42,8 @@ void NormalEquationBuilder::AddMarker(int marker, const Eigen::Vector3d& residua
   const int num_parameters = evaluator_.num_parameters();
   const auto columns = evaluator_.active_parameters(marker);
   const int num_columns = static_cast<int>(columns.size());
+  double* const hessian = equations->reweighted_hessian.data();
+  double* const curvature_sum = equations->loss_curvature.data();
   for (int a = 0; a < num_columns; ++a) {
     const double* const j = jacobian_.data() + 3 * a;
     slopes_[a] = j[0] * residual[0] + j[1] * residual[1] + j[2] * residual[2];
@@ -49,12 +53,12 @@ void NormalEquationBuilder::AddMarker(int marker, const Eigen::Vector3d& residua
     const double* const j_b = jacobian_.data() + 3 * b;
     const double x = weight * j_b[0], y = weight * j_b[1], z = weight * j_b[2];
     const double curved_slope = curvature * slopes_[b];
-    double* const hessian = equations->reweighted_hessian.data() + columns[b] * num_parameters;
-    double* const curved = equations->loss_curvature.data() + columns[b] * num_parameters;
     for (int a = b; a < num_columns; ++a) {
       const double* const j_a = jacobian_.data() + 3 * a;
-      hessian[columns[a]] += x * j_a[0] + y * j_a[1] + z * j_a[2];
-      curved[columns[a]] += curved_slope * slopes_[a];
+      const auto [first, second] = std::minmax(columns[a], columns[b]);
+      const int lower_entry = first * num_parameters + second;
+      hessian[lower_entry] += x * j_a[0] + y * j_a[1] + z * j_a[2];
+      curvature_sum[lower_entry] += curved_slope * slopes_[a];
     }
   }
 }

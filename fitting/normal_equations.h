@@ -11,13 +11,13 @@
 namespace articap {
 
 // The objective of one frame, f(y) = sum_i loss(|q_i(y) - p_i|^2) over the markers seen, to second
-// order; the curvature of q itself is left out. With r = q - p, J = dq/dy and the loss' derivatives l1,
-// l2 by |r|^2:
+// order; the curvature of q itself is left out. With r = q - p, J = dq/dy and the loss' derivatives
+// l1, l2 by |r|^2:
 struct NormalEquations {
   double objective = 0;
   Eigen::VectorXd gradient;  // sum 2 l1 J^T r
-  // sum 2 l1 J^T J: the quadratic model of iteratively reweighted least squares. For concave losses it
-  // majorises the objective, so its steps are safe, but converge linearly.
+  // sum 2 l1 J^T J: the quadratic model of iteratively reweighted least squares. For concave losses
+  // it majorises the objective, so its steps are safe, but converge linearly.
   Eigen::MatrixXd reweighted_hessian;
   // sum 4 l2 (J^T r)(J^T r)^T: with it the model is Newton's, and steps converge quadratically.
   Eigen::MatrixXd loss_curvature;

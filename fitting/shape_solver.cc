@@ -18,6 +18,9 @@ constexpr double kRidge = 1e-12;
 // good: it has no curvature towards the marker.
 constexpr double kFarDecrease = 0.3;
 
+constexpr double kFirstDamping = 0.02;
+constexpr double kMostDamping = 1e9;
+
 }  // namespace
 
 ShapeSolver::ShapeSolver(const VirtualMarkerEvaluator& evaluator, Eigen::VectorXd lower,
@@ -27,12 +30,12 @@ ShapeSolver::ShapeSolver(const VirtualMarkerEvaluator& evaluator, Eigen::VectorX
       upper_(std::move(upper)),
       options_(options) {}
 
-// A step of the reweighted or of Newton's model, within the box.
-ShapeSolver::Step ShapeSolver::SolveModel(bool newton, double damping,
+// A step within the box. `damping` leads from Newton's model (0) to one that is at least the
+// reweighted one (1) and therefore safe.
+ShapeSolver::Step ShapeSolver::SolveModel(bool far, double damping,
                                           const Eigen::VectorXd& parameters) {
-  model_ = current_.reweighted_hessian;
-  if (newton) model_ += current_.loss_curvature;
-  model_.diagonal() += damping * current_.reweighted_hessian.diagonal();
+  model_ = current_.reweighted_hessian * (1 + damping);
+  if (!far) model_ += current_.loss_curvature;
   model_.diagonal().array() += kRidge;
   Step step;
   step.change = SolveBoxQp(model_, current_.gradient, lower_ - parameters, upper_ - parameters);
@@ -45,10 +48,10 @@ ShapeSolution ShapeSolver::Solve(MarkerPositions measured_in_rig, Eigen::VectorX
   builder_.Build(measured_in_rig, *parameters, &current_);
   ShapeSolution solution{current_.objective, 1, false};
 
-  bool newton = false;
+  bool far = true;
   double damping = 0;
   while (solution.evaluations < options_.max_evaluations) {
-    const Step step = SolveModel(newton, damping, *parameters);
+    const Step step = SolveModel(far, damping, *parameters);
     if (step.promised <= options_.relative_tolerance * current_.objective + kAbsoluteTolerance_mm) {
       solution.converged = true;
       break;
@@ -58,16 +61,13 @@ ShapeSolution ShapeSolver::Solve(MarkerPositions measured_in_rig, Eigen::VectorX
     ++solution.evaluations;
     const double decrease = current_.objective - candidate_.objective;
     const double gain = decrease / step.promised;
+    if (gain < 0.25) damping = std::max(kFirstDamping, 5 * damping);
+    if (gain > 0.75) damping = damping > kFirstDamping ? 0.2 * damping : 0;
+    if (damping > kMostDamping) break;
     if (decrease > 0) {
-      newton = gain > 0.25 && decrease < kFarDecrease * current_.objective;
-      if (gain > 0.5) damping *= 0.1;
+      far = decrease > kFarDecrease * current_.objective;
       *parameters = candidate;
       std::swap(current_, candidate_);
-    } else if (newton) {
-      newton = false;
-    } else {
-      damping = damping > 0 ? 10 * damping : 1e-3;
-      if (damping > 1e9) break;
     }
   }
   solution.objective = current_.objective;

@@ -39,7 +39,7 @@ class ShapeSolver {
     Eigen::VectorXd change;
     double promised = 0;  // decrease of the model
   };
-  Step SolveModel(bool newton, double damping, const Eigen::VectorXd& parameters);
+  Step SolveModel(bool far, double damping, const Eigen::VectorXd& parameters);
 
   NormalEquationBuilder builder_;
   Eigen::VectorXd lower_, upper_;
