@@ -25,12 +25,6 @@ Handle TimelessDatasetProperties() {
   return properties;
 }
 
-Handle Utf8Type(std::size_t size) {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  ARTICAP_CHECK(H5Tset_size(type.get(), size) >= 0 && H5Tset_cset(type.get(), H5T_CSET_UTF8) >= 0);
-  return type;
-}
-
 Handle SpaceOf(const std::vector<hsize_t>& shape) {
   return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
 }
@@ -39,7 +33,9 @@ void WriteAttribute(hid_t object, const char* name, const Handle& type, const Ha
                     const void* data) {
   Handle attribute(H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
                    H5Aclose);
-  ARTICAP_CHECK(attribute.is_valid() && H5Awrite(attribute.get(), type.get(), data) >= 0);
+  ARTICAP_CHECK(attribute.is_valid());
+  ARTICAP_CHECK(H5Sget_simple_extent_npoints(space.get()) == 0 ||
+                H5Awrite(attribute.get(), type.get(), data) >= 0);
 }
 
 std::optional<std::vector<hsize_t>> ShapeOfSpace(const Handle& space) {
@@ -83,27 +79,40 @@ std::optional<std::size_t> HonestCountOf(const Handle& dataset) {
 
 std::string Trimmed(const char* text, std::size_t size) { return {text, ::strnlen(text, size)}; }
 
-// Strings of either kind, through a function that reads into a buffer of the type.
+// Texts of fixed length, through a function that reads into a buffer of the type. Texts of variable
+// length are not read: on damaged files HDF5 1.10 follows their pointers out of the file.
 template <class Read>
-std::optional<std::vector<std::string>> StringsOf(const Handle& type, const Handle& space,
-                                                  std::size_t count, const Read& read) {
-  if (H5Tget_class(type.get()) != H5T_STRING) return std::nullopt;
-  std::vector<std::string> strings(count);
-  if (H5Tis_variable_str(type.get()) > 0) {
-    std::vector<char*> texts(count, nullptr);
-    if (read(texts.data()) < 0) return std::nullopt;
-    for (std::size_t i = 0; i < count; ++i)
-      if (texts[i]) strings[i] = texts[i];
-    if (count > 0) H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, texts.data());
-    return strings;
-  }
-  const std::size_t size = H5Tget_size(type.get());
+std::optional<std::vector<std::string>> StringsOf(const Handle& type, std::size_t count,
+                                                  const Read& read) {
   constexpr std::size_t kLongest = 4096;
+  if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0)
+    return std::nullopt;
+  const std::size_t size = H5Tget_size(type.get());
   if (size == 0 || size > kLongest) return std::nullopt;
   std::vector<char> buffer(count * size);
-  if (read(buffer.data()) < 0) return std::nullopt;
+  if (count > 0 && read(buffer.data()) < 0) return std::nullopt;
+  std::vector<std::string> strings(count);
   for (std::size_t i = 0; i < count; ++i) strings[i] = Trimmed(buffer.data() + i * size, size);
   return strings;
+}
+
+// Texts padded with zeros to one size.
+struct FixedStrings {
+  Handle type;
+  std::vector<char> bytes;
+};
+
+FixedStrings FixedStringsOf(const std::vector<std::string>& values) {
+  std::size_t size = 1;
+  for (const std::string& value : values) size = std::max(size, value.size());
+  std::vector<char> bytes(values.size() * size, '\0');
+  for (std::size_t i = 0; i < values.size(); ++i)
+    std::copy(values[i].begin(), values[i].end(),
+              bytes.begin() + static_cast<std::ptrdiff_t>(i * size));
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  ARTICAP_CHECK(H5Tset_size(type.get(), size) >= 0 && H5Tset_cset(type.get(), H5T_CSET_UTF8) >= 0 &&
+                H5Tset_strpad(type.get(), H5T_STR_NULLPAD) >= 0);
+  return {std::move(type), std::move(bytes)};
 }
 
 template <class Number>
@@ -120,6 +129,10 @@ hid_t NativeType<std::int64_t>() {
 }  // namespace
 
 QuietLibrary::QuietLibrary() : lock_(LibraryMutex()) {
+  // After damaged files the library cannot tidy up at the end of the program, and prints so. Files
+  // live in memory alone: there is nothing that it must bring to disk then.
+  static const herr_t no_tidying = H5dont_atexit();
+  ARTICAP_CHECK(no_tidying >= 0);
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -166,27 +179,20 @@ Handle WriteDataset(hid_t parent, const char* name, hid_t file_type, hid_t memor
 }
 
 void WriteStrings(hid_t parent, const char* name, const std::vector<std::string>& values) {
-  std::size_t size = 1;
-  for (const std::string& value : values) size = std::max(size, value.size());
-  std::vector<char> padded(values.size() * size, '\0');
-  for (std::size_t i = 0; i < values.size(); ++i)
-    std::copy(values[i].begin(), values[i].end(),
-              padded.begin() + static_cast<std::ptrdiff_t>(i * size));
-  const Handle type = Utf8Type(size);
-  ARTICAP_CHECK(H5Tset_strpad(type.get(), H5T_STR_NULLPAD) >= 0);
-  WriteDataset(parent, name, type.get(), type.get(), {values.size()}, padded.data());
+  const FixedStrings strings = FixedStringsOf(values);
+  WriteDataset(parent, name, strings.type.get(), strings.type.get(), {values.size()},
+               strings.bytes.data());
 }
 
 void WriteStringAttribute(hid_t object, const char* name, const std::vector<std::string>& values) {
-  std::vector<const char*> texts;
-  for (const std::string& value : values) texts.push_back(value.c_str());
-  WriteAttribute(object, name, Utf8Type(H5T_VARIABLE), SpaceOf({values.size()}), texts.data());
+  const FixedStrings strings = FixedStringsOf(values);
+  WriteAttribute(object, name, strings.type, SpaceOf({values.size()}), strings.bytes.data());
 }
 
 void WriteStringAttribute(hid_t object, const char* name, const std::string& value) {
-  const char* text = value.c_str();
-  WriteAttribute(object, name, Utf8Type(H5T_VARIABLE), Handle(H5Screate(H5S_SCALAR), H5Sclose),
-                 &text);
+  const FixedStrings strings = FixedStringsOf({value});
+  WriteAttribute(object, name, strings.type, Handle(H5Screate(H5S_SCALAR), H5Sclose),
+                 strings.bytes.data());
 }
 
 void WriteNumberAttribute(hid_t object, const char* name, double value) {
@@ -220,8 +226,7 @@ std::optional<std::vector<std::string>> ReadStrings(hid_t parent, const char* na
   const auto count = dataset.is_valid() ? HonestCountOf(dataset) : std::nullopt;
   if (!count) return std::nullopt;
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
-  const Handle space(H5Dget_space(dataset.get()), H5Sclose);
-  return StringsOf(type, space, *count, [&](void* buffer) {
+  return StringsOf(type, *count, [&](void* buffer) {
     return H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
   });
 }
@@ -238,7 +243,7 @@ std::optional<std::vector<std::string>> ReadStringAttribute(hid_t parent, const 
   const auto shape = ShapeOfSpace(space);
   const auto count = shape ? CountOf(*shape) : std::nullopt;
   if (!count || *count > kMost || !type.is_valid()) return std::nullopt;
-  return StringsOf(type, space, *count,
+  return StringsOf(type, *count,
                    [&](void* buffer) { return H5Aread(attribute.get(), type.get(), buffer); });
 }
 

@@ -51,7 +51,7 @@ Handle CreateFileInMemory();
 Handle OpenFileInMemory(std::string_view bytes);  // invalid where the bytes are not HDF5
 std::string BytesOf(const Handle& file);
 
-// Writing fails only for want of memory, or by a bug: checked.
+// Writing fails only for want of memory, or by a bug: checked. Texts are UTF-8 of fixed length.
 Handle WriteDataset(hid_t parent, const char* name, hid_t file_type, hid_t memory_type,
                     const std::vector<hsize_t>& shape, const void* data);
 void WriteStrings(hid_t parent, const char* name, const std::vector<std::string>& values);

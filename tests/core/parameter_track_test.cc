@@ -122,7 +122,9 @@ TEST_P(ParameterRates, SurviveTheCsv) {
   ASSERT_TRUE(read) << read.error().message;
   // Half of the last decimal; a degree's is smaller in rad.
   EXPECT_THAT(*read, TrackNear(track, 0.51e-6));
-  if (GetParam() == std::round(GetParam())) EXPECT_EQ(read->rate_hz, GetParam());
+  if (GetParam() == std::round(GetParam())) {
+    EXPECT_EQ(read->rate_hz, GetParam());
+  }
 }
 
 TEST_P(ParameterRates, WrittenAgainTheCsvIsTheSame) {
@@ -142,11 +144,11 @@ TEST(ParameterCsvTest, ReadsWhatSpreadsheetsWrite) {
   const auto track = ParseParameterCsv(
       "\xEF\xBB\xBF"
       "frame,time_s,jaw_rotation[deg],residual_mm,status\r\n"
-      "1,0.00,1.5,0.2,ok\r\n2,0.02,,,too_few_markers\r\n\r\n3,0.03,-1e-1,0.25,weak",
+      "1,0.000,1.5,0.2,ok\r\n2,0.017,,,too_few_markers\r\n\r\n3,0.033,-1e-1,0.25,weak",
       "sheet.csv");
   ASSERT_TRUE(track) << track.error().message;
   EXPECT_EQ(track->num_frames(), 3);
-  EXPECT_NEAR(track->rate_hz, 60, 7);  // times to hundredths tell no more
+  EXPECT_NEAR(track->rate_hz, 60, 2);  // times to milliseconds tell no more
   EXPECT_NEAR(track->values(2, 0), -0.1 * std::acos(-1.0) / 180, 1e-15);
   EXPECT_TRUE(std::isnan(track->values(1, 0)) && std::isnan(track->sigmas(0, 0)));
 }
