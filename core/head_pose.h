@@ -30,7 +30,8 @@ const char* NameOf(HeadPoseStatus status);
 
 struct HeadPose {
   Rigid3d head_from_stage;  // identity where not known
-  double residual_mm = 0;   // RMS over the reference markers seen; NaN where not known
+  double residual_mm = 0;   // RMS over the reference markers used (seen, and not outliers); NaN
+                            // where not known
   HeadPoseStatus status = HeadPoseStatus::kOk;
 
   bool is_known() const {
@@ -51,7 +52,8 @@ struct HeadPoseTrack {
 HeadTracks ToHead(const StageTracks& tracks, const HeadPoseTrack& head_pose);
 
 // CSV: frame,time_s,tx_mm,ty_mm,tz_mm,qw,qx,qy,qz,residual_mm,status; the transform
-// head_from_stage; empty cells where the pose is not known; a first line "# mode: rigid".
+// head_from_stage; empty cells where the pose is not known; a first line "# mode: rigid, rate_hz:
+// 60" (pandas: read_csv(..., comment="#")). Rows must follow one another at that rate.
 std::string WriteHeadPoseCsv(const HeadPoseTrack& track);
 Result<HeadPoseTrack> ParseHeadPoseCsv(const std::string& text, const std::string& source_name);
 

@@ -19,9 +19,9 @@ struct MarkerRole {
   bool head_reference = false;  // moves with the skull
   bool strategic = false;       // a point of the orientation fit
   bool face = false;            // drives the articulatory parameters
-  std::string landmark;         // of docs/landmarks.md; empty where it sits at none
-  std::string
-      region;  // of the rig, where its virtual marker must lie; empty: the landmark's region
+  std::string landmark;         // of core/landmarks.h; empty where it sits at none
+  // Of the rig, where its virtual marker must lie; empty: the landmark's region.
+  std::string region;
   double offset_mm = 0;  // height of the marker's centre above the skin, where known
 };
 
@@ -37,14 +37,15 @@ struct DeclaredAxes {
 //   name = "animface"
 //   [head]
 //   mode = "rigid"               # rigid, translation, none
-//   left = "+x"                  # declared axes, all three or none
-//   up = "+y"
+//   left = "+x"                  # declared axes, all three or none, in the stage frame;
+//   up = "+y"                    # or unit vectors: [0.0, 1.0, 0.0]
 //   forward = "+z"
 //   [[marker]]
 //   name = "Chin"
 //   roles = ["strategic", "face"]         # of: head, strategic, face
 //   landmark = "chin"
 //   region = "jaw"                        # optional
+//   offset_mm = 2.0                       # optional
 struct MarkerSet {
   std::string name;
   StabilizationMode mode = StabilizationMode::kRigid;
@@ -56,6 +57,16 @@ struct MarkerSet {
   const MarkerRole* FindAtLandmark(std::string_view landmark) const;
 };
 
+// "+x", "-y", ... as a unit vector.
+Result<Eigen::Vector3d> ParseAxis(const std::string& text);
+// Refused unless unit vectors at right angles with left x up = forward: a left-handed choice would
+// mirror the face.
+Result<DeclaredAxes> MakeDeclaredAxes(const Eigen::Vector3d& left_in_stage,
+                                      const Eigen::Vector3d& up_in_stage,
+                                      const Eigen::Vector3d& forward_in_stage);
+
+// Refused, naming file and line: unknown keys, roles, landmarks and regions, markers without a name
+// or there twice.
 Result<MarkerSet> ParseMarkerSet(const std::string& toml_text, const std::string& source_name);
 Result<MarkerSet> ReadMarkerSet(const std::filesystem::path& path);
 std::string WriteMarkerSet(const MarkerSet& set);
