@@ -27,8 +27,8 @@ Binding TrueBinding(const SyntheticTake& take) {
   return binding;
 }
 
-OutputSet OutputsOf(const SyntheticTake& take, const MarkerRecording& markers,
-                    MarkerFormat format, const std::string& path) {
+OutputSet OutputsOf(const SyntheticTake& take, const MarkerRecording& markers, MarkerFormat format,
+                    const std::string& path) {
   OutputSet outputs;
   outputs.Add(path, FormatMarkers(markers, format));
   outputs.Add(Beside(path, ".TextGrid"), WriteTextGrid(take.labels));
@@ -44,9 +44,9 @@ StageReport DescribeTake(const SyntheticTake& take, const DisturbedRecording& di
   const StageTracks& tracks = disturbed.markers.tracks;
   StageReport report;
   report.stage = "synthesize";
-  report.verdict = fmt::format("{} frames of {} markers at {} Hz, {:.1f} s", tracks.num_frames(),
-                               tracks.num_markers(), tracks.rate_hz(),
-                               tracks.num_frames() / tracks.rate_hz());
+  report.verdict =
+      fmt::format("{} frames of {} markers at {} Hz, {:.1f} s", tracks.num_frames(),
+                  tracks.num_markers(), tracks.rate_hz(), tracks.num_frames() / tracks.rate_hz());
   for (const auto& path : outputs.paths()) report.texts.emplace_back("written", path.string());
   for (const NamedValue& slider : take.identity)
     report.figures.emplace_back("identity_" + slider.name, slider.value);
@@ -83,8 +83,8 @@ ExitCode SynthesizeCommand(const std::vector<std::string>& arguments) {
   if (!map_path) return FailWith(map_path.error());
   const Result<MarkerSet> set = ReadMarkerSet(*map_path);
   if (!set) return FailWith(set.error());
-  const Result<SyntheticTake> take = WithProgress(
-      "synthesizing", [&] { return SynthesizeTake(*rig, *set, take_options); });
+  const Result<SyntheticTake> take =
+      WithProgress("synthesizing", [&] { return SynthesizeTake(*rig, *set, take_options); });
   if (!take) return FailWith(take.error());
   const DisturbedRecording disturbed =
       AddNoise(take->markers, noise_options, static_cast<std::uint64_t>(take_options.seed));
