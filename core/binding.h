@@ -15,6 +15,15 @@
 
 namespace articap {
 
+// Frames first to last, both included, by the recording's own numbers.
+struct FrameRange {
+  int first = 0;
+  int last = -1;
+
+  bool Contains(int frame) const { return first <= frame && frame <= last; }
+  int size() const { return last - first + 1; }
+};
+
 struct NamedValue {
   std::string name;
   double value = 0;
@@ -33,6 +42,7 @@ struct Binding {
   MarkerSet marker_set;
   HeadShape head_shape;      // head references in the head frame; empty for the modes without
   HeadShape reference_pose;  // every marker of the reference pose, head frame: what q was tied to
+  FrameRange reference_frames;  // of the reference recording, averaged
   Sim3d rig_from_head;       // written as x = (tx, ty, tz, ax, ay, az, s)
   std::vector<NamedValue> rig_parameters;  // the rig's pose in the reference pose
   std::vector<NamedValue> rig_identity;

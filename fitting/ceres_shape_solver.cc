@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "fitting/cost_functions/ceres_marker_loss.h"
 #include "fitting/cost_functions/virtual_marker_cost.h"
 
 namespace articap {

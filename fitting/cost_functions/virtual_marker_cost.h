@@ -2,12 +2,10 @@
 #pragma once
 
 #include <ceres/cost_function.h>
-#include <ceres/loss_function.h>
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "fitting/marker_loss.h"
 #include "rig/virtual_marker_evaluator.h"
 
 namespace articap {
@@ -52,22 +50,6 @@ class VirtualMarkerCost : public ceres::CostFunction {
   const VirtualMarkerEvaluator& evaluator_;
   int marker_;
   Eigen::Vector3d measured_in_rig_;
-};
-
-// MarkerLoss in Ceres' convention, whose cost is half the sum of rho(|r|^2).
-class CeresMarkerLoss : public ceres::LossFunction {
- public:
-  explicit CeresMarkerLoss(const MarkerLoss& loss) : loss_(loss) {}
-
-  void Evaluate(double squared_distance, double rho[3]) const override {
-    const MarkerLoss::Value value = loss_(squared_distance);
-    rho[0] = 2 * value.cost;
-    rho[1] = 2 * value.first;
-    rho[2] = 2 * value.second;
-  }
-
- private:
-  MarkerLoss loss_;
 };
 
 }  // namespace articap

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "fitting/reference_pose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace articap {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// (value - 5th percentile) / (95th - 5th percentile): 0 where the mouth is shut, 1 where it is open.
+std::vector<double> OverSpread(std::vector<double> values) {
+  std::vector<double> sorted;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
+               [](double value) { return std::isfinite(value); });
+  if (sorted.empty()) return std::vector<double>(values.size(), 0.0);
+  std::sort(sorted.begin(), sorted.end());
+  const auto percentile = [&](double part) {
+    return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+  };
+  const double low = percentile(0.05);
+  // A spread below half a millimetre is noise, not movement.
+  const double spread = std::max(0.5, percentile(0.95) - low);
+  for (double& value : values) value = (value - low) / spread;
+  return values;
+}
+
+// How much the face moves from frame to frame: mean speed of the face markers, mm per frame.
+std::vector<double> Speeds(const HeadTracks& tracks, const MarkerSet& set) {
+  std::vector<double> speeds(tracks.num_frames(), kNaN);
+  for (int frame = 1; frame < tracks.num_frames(); ++frame) {
+    double sum = 0;
+    int count = 0;
+    for (int marker = 0; marker < tracks.num_markers(); ++marker) {
+      const MarkerRole* const role = set.Find(tracks.names()[marker]);
+      if (role == nullptr || !role->face) continue;
+      if (tracks.is_missing(frame, marker) || tracks.is_missing(frame - 1, marker)) continue;
+      sum += (tracks.position_mm(frame, marker) - tracks.position_mm(frame - 1, marker)).norm();
+      ++count;
+    }
+    if (count > 0) speeds[frame] = sum / count;
+  }
+  return speeds;
+}
+
+bool HasAny(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+std::vector<double> LandmarkDistances(const HeadTracks& tracks, const MarkerSet& set,
+                                      const std::string& landmark_a,
+                                      const std::string& landmark_b) {
+  std::vector<double> distances(tracks.num_frames(), kNaN);
+  const MarkerRole* const role_a = set.FindAtLandmark(landmark_a);
+  const MarkerRole* const role_b = set.FindAtLandmark(landmark_b);
+  if (role_a == nullptr || role_b == nullptr) return distances;
+  const auto a = tracks.Find(role_a->name), b = tracks.Find(role_b->name);
+  if (!a || !b) return distances;
+  for (int frame = 0; frame < tracks.num_frames(); ++frame)
+    if (!tracks.is_missing(frame, *a) && !tracks.is_missing(frame, *b))
+      distances[frame] =
+          (tracks.position_mm(frame, *a) - tracks.position_mm(frame, *b)).norm();
+  return distances;
+}
+
+Result<FrameRange> ProposeReferenceFrames(const HeadTracks& tracks, const MarkerSet& set,
+                                          int num_frames) {
+  const std::vector<double> lips =
+      LandmarkDistances(tracks, set, "upper_lip_center", "lower_lip_center");
+  std::vector<double> jaw = LandmarkDistances(tracks, set, "chin", "nose_bridge");
+  if (!HasAny(jaw)) jaw = LandmarkDistances(tracks, set, "chin", "nose_tip");
+  if (!HasAny(lips) && !HasAny(jaw))
+    return Fail(
+        "no reference frames can be proposed: the marker map names no markers at the landmarks "
+        "upper_lip_center and lower_lip_center, nor chin and nose_bridge; give the frames with "
+        "closed lips and relaxed jaw yourself (--frames A:B, or --reference)");
+
+  const std::vector<double> lip_score = OverSpread(lips), jaw_score = OverSpread(jaw);
+  const std::vector<double> speed_score = OverSpread(Speeds(tracks, set));
+  std::vector<double> score(tracks.num_frames());
+  for (int frame = 0; frame < tracks.num_frames(); ++frame) {
+    const auto known = [](double value) { return std::isfinite(value) ? value : 1.0; };
+    score[frame] = 2 * known(lip_score[frame]) + 2 * known(jaw_score[frame]) +
+                   known(speed_score[frame]);
+  }
+  const int length = std::min(num_frames, tracks.num_frames());
+  double sum = 0;
+  for (int frame = 0; frame < length; ++frame) sum += score[frame];
+  double best = sum;
+  int best_start = 0;
+  for (int start = 1; start + length <= tracks.num_frames(); ++start) {
+    sum += score[start + length - 1] - score[start - 1];
+    if (sum < best) {
+      best = sum;
+      best_start = start;
+    }
+  }
+  const int first = tracks.first_frame() + best_start;
+  return FrameRange{first, first + length - 1};
+}
+
+AveragedPose AverageFrames(const HeadTracks& tracks, const FrameRange& frames) {
+  AveragedPose averaged;
+  for (int marker = 0; marker < tracks.num_markers(); ++marker) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double sum_of_squares = 0;
+    int count = 0;
+    for (int number = frames.first; number <= frames.last; ++number) {
+      const int frame = number - tracks.first_frame();
+      if (tracks.is_missing(frame, marker)) continue;
+      sum += tracks.position_mm(frame, marker);
+      sum_of_squares += tracks.position_mm(frame, marker).squaredNorm();
+      ++count;
+    }
+    const std::string& name = tracks.names()[marker];
+    if (count == 0 || 2 * count < frames.size()) {
+      averaged.left_out.push_back(name);
+      continue;
+    }
+    const Eigen::Vector3d mean = sum / count;
+    averaged.pose.points.push_back({name, mean});
+    averaged.largest_sd_mm = std::max(
+        averaged.largest_sd_mm,
+        std::sqrt(std::max(0.0, sum_of_squares / count - mean.squaredNorm())));
+  }
+  return averaged;
+}
+
+}  // namespace articap
