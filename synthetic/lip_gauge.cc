@@ -2,27 +2,62 @@
 #include "synthetic/lip_gauge.h"
 
 #include <array>
+#include <limits>
+#include <set>
 #include <string_view>
+#include <vector>
 
 #include "synthetic/attachment.h"
 
 namespace articap {
 namespace {
 
-constexpr std::string_view kUpperSeamLandmark = "upper_lip_seam";
-constexpr std::string_view kLowerSeamLandmark = "lower_lip_seam";
-constexpr int kBisections = 48;  // from a whole range to double precision
+constexpr int kBisections = 48;      // from a whole range to double precision
+constexpr double kMidlineMm = 1.5;   // vertices this near to the midplane count as the middle
+constexpr double kTouchingMm = 0.1;  // lips this near touch
+
+// Vertices of a region near the midplane.
+std::vector<int> MiddleOf(const FaceRig& rig, std::string_view region_name) {
+  std::set<int> vertices;
+  const auto region = rig.FindRegion(region_name);
+  const auto& triangles = rig.neutral_mesh().triangles;
+  for (std::size_t i = 0; region && i < triangles.size(); ++i)
+    if (rig.definition().triangle_region[i] == *region)
+      for (const int vertex : triangles[i])
+        if (std::abs(rig.neutral_mesh().vertices[vertex].x()) < kMidlineMm) vertices.insert(vertex);
+  return {vertices.begin(), vertices.end()};
+}
+
+struct Seam {
+  int upper, lower;
+};
+
+// Where the lips meet: the nearest two vertices of upper and lower lip, and of those that touch
+// the foremost.
+std::optional<Seam> FindSeam(const FaceRig& rig) {
+  const std::vector<Eigen::Vector3d>& points = rig.neutral_mesh().vertices;
+  double least_gap_mm = std::numeric_limits<double>::infinity();
+  double foremost_mm = -std::numeric_limits<double>::infinity();
+  std::optional<Seam> seam;
+  for (const int upper : MiddleOf(rig, "upper_lip"))
+    for (const int lower : MiddleOf(rig, "lower_lip")) {
+      if (upper == lower) continue;
+      const double gap_mm = std::max(kTouchingMm, (points[upper] - points[lower]).norm());
+      const double front_mm = points[upper].z();
+      if (gap_mm > least_gap_mm || (gap_mm == least_gap_mm && front_mm <= foremost_mm)) continue;
+      least_gap_mm = gap_mm;
+      foremost_mm = front_mm;
+      seam = Seam{upper, lower};
+    }
+  return seam;
+}
 
 }  // namespace
 
 std::optional<LipGauge> LipGauge::Create(const FaceRig& rig) {
-  const auto upper = rig.FindLandmark(kUpperSeamLandmark);
-  const auto lower = rig.FindLandmark(kLowerSeamLandmark);
-  if (!upper || !lower) return std::nullopt;
-  const auto upper_marker = AttachToVertex(rig, *upper);
-  const auto lower_marker = AttachToVertex(rig, *lower);
-  if (!upper_marker || !lower_marker) return std::nullopt;
-  return LipGauge(rig, *upper_marker, *lower_marker);
+  const auto seam = FindSeam(rig);
+  if (!seam) return std::nullopt;
+  return LipGauge(rig, *AttachToVertex(rig, seam->upper), *AttachToVertex(rig, seam->lower));
 }
 
 LipGauge::LipGauge(const FaceRig& rig, const VirtualMarker& upper, const VirtualMarker& lower)

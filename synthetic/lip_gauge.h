@@ -12,7 +12,7 @@ namespace articap {
 // Measures how far the lips of a rig are apart, and opens or closes them.
 class LipGauge {
  public:
-  // Nothing for rigs without the landmarks of the lips' seam.
+  // Nothing for rigs without the regions upper_lip and lower_lip.
   static std::optional<LipGauge> Create(const FaceRig& rig);
 
   // Height of the gap between the middles of the lips beyond that of the neutral pose, mm; negative

@@ -10,9 +10,9 @@ namespace articap {
 double TriweightStep(double x) {
   if (x <= -1) return 0;
   if (x >= 1) return 1;
-  const double square = x * x;
-  const double odd = x * (35 + square * (-35 + square * (21 - 5 * square)));
-  return std::clamp(0.5 + odd / 32, 0.0, 1.0);
+  // With y = (1 + x) / 2, written as a polynomial without subtractions that cancel near y = 0.
+  const double y = 0.5 * (1 + x);
+  return y * y * y * y * (35 + y * (-84 + y * (70 - 20 * y)));
 }
 
 void SmoothSteps::Add(double end_s, double target, double weight) {

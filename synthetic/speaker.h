@@ -13,12 +13,11 @@
 #include "core/options.h"
 #include "core/parameter_track.h"
 #include "core/result.h"
+#include "core/text_grid.h"
 #include "core/virtual_marker.h"
 #include "rig/face_rig.h"
 #include "synthetic/head_motion.h"
-#include "synthetic/noise.h"
 #include "synthetic/speech.h"
-#include "synthetic/text_grid.h"
 
 namespace articap {
 

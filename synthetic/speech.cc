@@ -44,6 +44,7 @@ constexpr const char* kApertureParameters[] = {"jaw_rotation", "upper_lip_raise"
 constexpr double kReachLimit = 0.97;       // of the range, for targets
 constexpr double kUnstressedReach = 0.8;   // of a target's size
 constexpr double kSmallestGapMm = 1.2;     // of phones whose lips do not meet
+constexpr double kContactMm = 3;           // openings below this feel the other lip
 constexpr double kClosureMarginS = 0.025;  // the lips meet this long before and after the label
 constexpr double kClosureRampS = 0.07;     // half of the time they take for it, where there is room
 
@@ -51,6 +52,14 @@ constexpr double kClosureRampS = 0.07;     // half of the time they take for it,
 double ValueOf(const RigParameter& range, double fraction) {
   const double limited = std::clamp(fraction, -kReachLimit, kReachLimit);
   return limited < 0 ? -limited * range.min : limited * range.max;
+}
+
+// Where lips would be that touch: 0 instead of a negative opening, with two continuous derivatives.
+double AfterContact(double opening_mm) {
+  if (opening_mm <= 0) return 0;
+  if (opening_mm >= kContactMm) return opening_mm;
+  const double x = opening_mm / kContactMm;
+  return kContactMm * x * x * x * (6 + x * (-8 + 3 * x));
 }
 
 // Lips that are shut: parameter values that take over while they are.
@@ -143,7 +152,20 @@ class Speaker {
       for (std::size_t i = 0; i < moved_.size(); ++i)
         values(frame, moved_[i].parameter) = courses_[i].At(frame / options_.rate_hz);
     for (const Closure& closure : closures_) Close(closure, &values);
+    if (lips_) KeepLipsFromCrossing(&values);
     return values;
+  }
+
+  // Lip and jaw move at different speeds, so that the lips may cross on the way between poses in
+  // which they do not: the lower lip then rests against the upper.
+  void KeepLipsFromCrossing(Eigen::MatrixXd* values) const {
+    for (int frame = 0; frame < values->rows(); ++frame) {
+      Eigen::VectorXd parameters = values->row(frame);
+      const double opening_mm = lips_->OpeningMm(parameters);
+      if (opening_mm == 0 || opening_mm >= kContactMm) continue;
+      lips_->SetOpening(AfterContact(opening_mm), &parameters);
+      values->row(frame) = parameters;
+    }
   }
 
   void Close(const Closure& closure, Eigen::MatrixXd* values) const {
@@ -240,17 +262,22 @@ SyntheticSpeech SynthesizeSpeech(const FaceRig& rig, const SyntheticSpeechOption
 }
 
 TextGrid LabelsOf(const Utterances& utterances) {
-  TextGrid grid{0, utterances.duration_s, {{"words", {}}, {"phones", {}}}};
+  TextGridTier words{.name = "words", .labels = {}};
   double end_s = 0;
   for (const WordToken& word : utterances.words) {
-    if (word.begin_s > end_s) grid.tiers[0].intervals.push_back({end_s, word.begin_s, ""});
-    grid.tiers[0].intervals.push_back({word.begin_s, word.end_s, word.spelling});
+    if (word.begin_s > end_s) words.labels.push_back({end_s, word.begin_s, ""});
+    words.labels.push_back({word.begin_s, word.end_s, word.spelling});
     end_s = word.end_s;
   }
-  if (end_s < utterances.duration_s)
-    grid.tiers[0].intervals.push_back({end_s, utterances.duration_s, ""});
+  if (end_s < utterances.duration_s) words.labels.push_back({end_s, utterances.duration_s, ""});
+
+  TextGridTier phones{.name = "phones", .labels = {}};
   for (const PhoneToken& token : utterances.phones)
-    grid.tiers[1].intervals.push_back({token.begin_s, token.end_s, std::string(token.name())});
+    phones.labels.push_back({token.begin_s, token.end_s, std::string(token.name())});
+
+  TextGrid grid;
+  grid.end_s = utterances.duration_s;
+  grid.tiers = {std::move(words), std::move(phones)};
   return grid;
 }
 

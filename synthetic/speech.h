@@ -5,8 +5,8 @@
 
 #include "core/options.h"
 #include "core/parameter_track.h"
+#include "core/text_grid.h"
 #include "rig/face_rig.h"
-#include "synthetic/text_grid.h"
 #include "synthetic/utterance.h"
 
 namespace articap {
