@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rig/default_head/base_surface.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -16,15 +17,15 @@ constexpr int kLevels = BaseSurface::kNumLevels;
 // and the heights of nasion, subnasale and gnathion are those of docs/default-head.md.
 constexpr double kTable[kLevels][kSections][3] = {
     // base of the neck
-    {{0, -176, 44}, {25, -176, 38}, {46, -175, 22}, {59, -174, 2}, {64, -173, -18}, {61, -171, -44}, {38, -168, -72}, {0, -166, -80}},
-    {{0, -138, 39}, {20, -138, 36}, {37, -138, 24}, {48, -138, 6}, {53, -137, -12}, {52, -134, -36}, {34, -129, -64}, {0, -126, -73}},
+    {{0, -170, 44}, {25, -170, 38}, {45, -169, 22}, {57, -168, 2}, {62, -167, -18}, {60, -165, -44}, {38, -162, -72}, {0, -160, -80}},
+    {{0, -136, 38}, {20, -136, 35}, {35, -136, 23}, {43.5, -136, 6}, {48, -135, -12}, {48.5, -132, -36}, {34, -127, -64}, {0, -124, -73}},
     // throat
-    {{0, -114, 45}, {19, -114, 42}, {36, -112, 30}, {46, -108, 12}, {50.5, -105, -8}, {51, -102, -34}, {35, -98, -64}, {0, -95, -73}},
-    {{0, -105, 69}, {17, -104, 65}, {33, -101, 51}, {44, -92, 29}, {49.5, -81, 5}, {52.5, -76, -26}, {38, -72, -65}, {0, -70, -75}},
+    {{0, -113, 43}, {19, -113, 40}, {35, -112, 30}, {42, -108, 11}, {45.5, -105, -8}, {48.5, -102, -34}, {35, -98, -64}, {0, -95, -73}},
+    {{0, -105, 69}, {17, -104, 65}, {33, -101, 51}, {42.5, -92, 28}, {47, -81, 4}, {51, -76, -26}, {38, -72, -65}, {0, -70, -75}},
     // edge of the jaw: menton, gonion in section 4
-    {{0, -98.5, 85}, {17, -97, 80}, {36, -89, 59.5}, {47, -77, 35}, {52, -63, 10}, {54, -55, -22}, {44, -50, -63}, {0, -45, -77}},
+    {{0, -98.5, 85}, {17, -97, 79}, {36, -89, 59.5}, {47, -77, 35}, {52, -63, 10}, {54, -55, -22}, {44, -50, -63}, {0, -45, -77}},
     // pogonion
-    {{0, -85, 94}, {18, -84, 87.5}, {38, -77, 67}, {50, -66, 40}, {54.5, -50, 14}, {57, -38, -20}, {51, -30, -63}, {0, -25, -83}},
+    {{0, -85, 94}, {18, -84, 86.5}, {38, -77, 67}, {50, -66, 40}, {54.5, -50, 14}, {57, -38, -20}, {51, -30, -63}, {0, -25, -83}},
     // furrow below the lower lip
     {{0, -70, 91.5}, {20, -70, 86}, {41, -64, 68}, {54, -53, 42}, {58.5, -36, 16}, {61, -22, -18}, {57, -12, -62}, {0, -8, -88}},
     // mouth
@@ -103,6 +104,16 @@ Eigen::Vector3d BaseSurface::At(double section, double level) const {
   for (int b = 0; b < 4; ++b)
     for (int a = 0; a < 4; ++a) point += up[b] * across[a] * control_[j + b][i + a];
   return point;
+}
+
+Eigen::Vector3d BaseSurface::Outward(double section, double level) const {
+  constexpr double kStep = 1e-3;
+  // All sections meet at the crown: no normal there.
+  const double t = std::min(level, kCrownLevel - 0.1);
+  const double s0 = std::max(section - kStep, 0.0), s1 = std::min(section + kStep, kBackSection);
+  const Eigen::Vector3d across = At(s1, t) - At(s0, t);
+  const Eigen::Vector3d up = At(section, t + kStep) - At(section, t - kStep);
+  return across.cross(up).normalized();
 }
 
 Eigen::Vector2d BaseSurface::FindInFront(double x_mm, double y_mm) const {

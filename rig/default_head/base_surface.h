@@ -25,6 +25,9 @@ class BaseSurface {
     return At(section_level.x(), section_level.y());
   }
 
+  // Unit normal of the surface, outwards.
+  Eigen::Vector3d Outward(double section, double level) const;
+
   // Section and level of the point of the face (not of the back) that a view from the front shows at
   // x, y.
   Eigen::Vector2d FindInFront(double x_mm, double y_mm) const;

@@ -25,10 +25,10 @@ Eigen::Vector2d VermilionBorder(Lip lip, double fraction) {
 }
 
 Eigen::Vector2d LidMargin(Lid lid, double fraction) {
-  static const Curve upper{{16.2, 12.2}, {18.5, 14.2}, {22, 17.0}, {26, 18.9},
-                           {30, 19.6},   {35, 19.0},   {40, 17.2}, {45, 14.6}};
+  static const Curve upper{{16.2, 12.2}, {18.5, 14.0}, {22, 16.6}, {26, 18.3},
+                           {30, 18.9},   {35, 18.5},   {40, 16.9}, {45, 14.4}};
   static const Curve lower{{16.2, 12.2}, {19, 10.9}, {24, 9.4}, {29, 8.6},
-                           {34, 8.6},    {39, 9.9},  {43, 12.3}, {45, 14.6}};
+                           {34, 8.6},    {39, 9.9},  {43, 12.3}, {45, 14.4}};
   const double smooth = 0.5 - 0.5 * std::cos(M_PI * fraction);
   const double x = 16.2 + 28.8 * (0.55 * fraction + 0.45 * smooth);
   return {x, lid == Lid::kUpper ? upper(x) : lower(x)};

@@ -10,8 +10,6 @@
 namespace articap {
 namespace {
 
-constexpr double kHairThickness_mm = 7;
-
 double Bell2(double x, double y) { return Bell(x) * Bell(y); }
 
 // Distance to the segment a b, and where along it (0 to 1) the nearest point lies.
@@ -38,13 +36,15 @@ double FaceRelief(double x, double y) {
   // cheekbone, fullness of the cheek
   z += 2.6 * Bell2((x - 45) / 10, (y + 9) / 9);
   z += 1.6 * Bell2((x - 33) / 8, (y + 26) / 11);
+  // hollow below the cheekbone
+  z -= 1.5 * Bell2((x - 47) / 8, (y + 38) / 9);
   // from the inner corner of the eye down and out
   const Eigen::Vector2d p(x, y);
   const SegmentDistance trough = ToSegment(p, {18, 5}, {38, -4});
   z -= 1.2 * Bell(trough.distance / 3.5);
   // nasolabial furrow
   const SegmentDistance furrow = ToSegment(p, {20, -22}, {33, -52});
-  z -= 1.3 * Bell(furrow.distance / 3.0) * SmoothStep(1.15, 0.2, furrow.along);
+  z -= 1.7 * Bell(furrow.distance / 2.8) * SmoothStep(1.15, 0.2, furrow.along);
   return z;
 }
 
@@ -97,19 +97,19 @@ double LidHeight(double x, double y, double ground) {
   return z;
 }
 
-// Level of the hairline at each section.
-double Hairline(double section) {
-  static const Curve line{{0, 12.9},  {1, 12.95}, {1.8, 12.85}, {2.4, 12.4}, {2.9, 11.7}, {3.3, 10.9},
-                          {3.55, 9.9}, {3.75, 9.2}, {4.0, 9.1}, {4.25, 9.7}, {4.6, 9.9}, {4.85, 9.2},
-                          {5.1, 7.2}, {5.4, 5.8}, {6, 5.1}, {7, 4.8}};
+}  // namespace
+
+double FaceShape::Hairline(double section) {
+  static const Curve line{{0, 12.95}, {1, 13.0},  {1.8, 12.9},  {2.4, 12.5}, {2.85, 11.8}, {3.1, 11.1},
+                          {3.3, 10.4}, {3.45, 9.5}, {3.6, 9.0}, {3.8, 8.85}, {4.0, 9.1},  {4.2, 9.9},
+                          {4.45, 10.4}, {4.75, 10.2}, {5.0, 8.9}, {5.2, 7.2}, {5.45, 6.0}, {6, 5.2},
+                          {7, 4.9}};
   return line(section);
 }
 
-}  // namespace
-
 double FaceShape::HairCover(const Eigen::Vector2d& section_level) {
   const double line = Hairline(section_level.x());
-  return SmoothStep(line - 0.05, line + 0.3, section_level.y());
+  return SmoothStep(line + 0.1, line + 0.5, section_level.y());
 }
 
 Eigen::Vector3d FaceShape::At(const Eigen::Vector2d& section_level) const {
@@ -123,27 +123,18 @@ Eigen::Vector3d FaceShape::At(const Eigen::Vector2d& section_level) const {
     if (x < 40 && y < 45 && y > -40) z = NoseHeight(x, y, z);
     if (x < 56 && y < 40 && y > -12) z = LidHeight(x, y, z);
     point.z() = z;
+    // The nostrils open into the underside of the nose.
+    const double nostril = Bell2((x - 6.3) / 2.3, (y + 27.6) / 1.9);
+    point += nostril * Eigen::Vector3d(0, 3.0, -4.0);
   }
+  // Under the hair the scalp keeps clear of the cap.
   const double hair = HairCover(section_level);
-  if (hair > 0) {
-    constexpr double kStep = 1e-3;
-    const double level = std::min(section_level.y(), BaseSurface::kCrownLevel - 2 * kStep);
-    const Eigen::Vector3d here = base_.At(section_level.x(), level);
-    const Eigen::Vector3d across =
-        base_.At(section_level.x() + (section_level.x() > 3 ? -kStep : kStep), level) - here;
-    const Eigen::Vector3d up = base_.At(section_level.x(), level + kStep) - here;
-    const Eigen::Vector3d outward =
-        (section_level.x() > 3 ? -1.0 : 1.0) * across.cross(up).normalized();
-    // Thicker on top than at the temples and the nape.
-    const double thick = 0.35 + 0.65 * SmoothStep(0, 3, section_level.y() - Hairline(section_level.x()));
-    point += hair * thick * kHairThickness_mm * outward;
-  }
+  if (hair > 0) point -= 2.5 * hair * base_.Outward(section_level.x(), section_level.y());
   return point;
 }
 
 Eigen::Vector3d FaceShape::InFront(double x_mm, double y_mm) const {
-  Eigen::Vector3d point = At(base_.FindInFront(x_mm, y_mm));
-  return point;
+  return At(base_.FindInFront(x_mm, y_mm));
 }
 
 }  // namespace articap

@@ -27,7 +27,9 @@ class FaceShape {
   // The skin as a view from the front shows it at x, y.
   Eigen::Vector3d InFront(double x_mm, double y_mm) const;
 
-  // 1 in the hair, 0 outside.
+  // Level where the hair begins at a section.
+  static double Hairline(double section);
+  // 1 under the hair, 0 outside.
   static double HairCover(const Eigen::Vector2d& section_level);
 
   const BaseSurface& base() const { return base_; }

@@ -97,9 +97,8 @@ class SkinMaker {
         const Vector2d middle = 0.25 * (layout.nodes[a] + layout.nodes[b] + layout.nodes[c] +
                                         layout.nodes[d]);
         const bool crown = row + 2 == layout.num_rows;
-        const double hair = crown ? 1 : FaceShape::HairCover(middle);
         const Region region = crown ? Region::kSkull : RegionOfCell(middle.x(), middle.y());
-        half_.AddQuad(a, b, c, d, hair > 0.5 ? Part::kHair : Part::kSkin, region);
+        half_.AddQuad(a, b, c, d, Part::kSkin, region);
       }
   }
 
@@ -149,9 +148,9 @@ class SkinMaker {
     };
     // From behind the seam round the vestibule, outside of the teeth, to the throat.
     static constexpr BagRing kRings[] = {
-        {25.0, 1.2, 1.2, 96.6, 84.0, 0.0},  {26.0, 5.5, 6.0, 95.8, 81.0, 0.1},
-        {28.5, 14, 14, 95.0, 76.0, 0.3},    {30.5, 18, 17, 88, 67.0, 0.5},
-        {31.0, 18, 18, 70, 57.0, 0.75},     {24.0, 15, 15, 50, 46.0, 1.0}};
+        {25.0, 1.2, 1.2, 96.6, 84.0, 0.0},  {26.0, 5.5, 5.0, 95.4, 81.0, 0.1},
+        {28.5, 13, 11, 93.6, 76.0, 0.3},    {30.5, 18, 14, 86, 67.0, 0.5},
+        {31.0, 18, 17, 70, 57.0, 0.75},     {24.0, 15, 15, 50, 46.0, 1.0}};
     for (const BagRing& bag : kRings) {
       std::vector<int> vertices;
       const Vector3f color =

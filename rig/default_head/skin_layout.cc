@@ -17,17 +17,17 @@ namespace {
 std::vector<double> ColumnSections() {
   std::vector<double> sections;
   for (int i = 0; i <= 10; ++i) sections.push_back(0.13 * i);
-  for (const double s : {1.45, 1.6, 1.75, 1.9, 2.06, 2.22, 2.4, 2.6, 2.8, 3.02, 3.25, 3.5, 3.75,
-                         4.0, 4.25, 4.5, 4.8, 5.1, 5.5, 5.9, 6.3, 6.65, BaseSurface::kBackSection})
+  for (const double s : {1.45, 1.6, 1.75, 1.9, 2.06, 2.22, 2.4, 2.6, 2.85, 3.1, 3.35, 3.6, 3.9,
+                         4.2, 4.5, 4.85, 5.3, 5.8, 6.4, BaseSurface::kBackSection})
     sections.push_back(s);
   return sections;
 }
 
 std::vector<double> RowLevels() {
   std::vector<double> levels{0, 0.5, 1, 1.4, 1.8, 2.2, 2.6, 3, 3.35, 3.7, 4, 4.25, 4.5, 4.75};
-  while (levels.back() < 11.05) levels.push_back(levels.back() + 0.15);
-  for (const double t : {11.3, 11.55, 11.8, 12.05, 12.3, 12.55, 12.8, 13.05, 13.4, 13.8, 14.3, 14.8,
-                         15.3, 15.7, BaseSurface::kCrownLevel})
+  while (levels.back() < 11.0)  // finer on the steep underside of the nose
+    levels.push_back(levels.back() + (levels.back() > 7.95 && levels.back() < 8.44 ? 0.08 : 0.16));
+  for (const double t : {11.4, 11.75, 12.1, 12.5, 12.9, 13.4, 14.0, 14.6, 15.3, BaseSurface::kCrownLevel})
     levels.push_back(t);
   return levels;
 }
@@ -105,6 +105,12 @@ class LayoutMaker {
   }
 
  private:
+  Hole MakeHole(double first_section, double last_section, double first_level, int num_rows) const {
+    const int first_row = LastBelow(levels_, first_level);
+    return {first_section < 0 ? -1 : LastBelow(sections_, first_section),
+            LastBelow(sections_, last_section), first_row, first_row + num_rows};
+  }
+
   void MakeGrid() {
     layout_.num_columns = static_cast<int>(sections_.size());
     layout_.num_rows = static_cast<int>(levels_.size());
@@ -245,9 +251,8 @@ class LayoutMaker {
   const BaseSurface& surface_;
   const std::vector<double> sections_ = ColumnSections();
   const std::vector<double> levels_ = RowLevels();
-  const Hole mouth_{-1, LastBelow(sections_, 1.46), LastBelow(levels_, 6.2), LastBelow(levels_, 7.7)};
-  const Hole eye_{LastBelow(sections_, 0.67), LastBelow(sections_, 2.23), LastBelow(levels_, 9.5),
-                  LastBelow(levels_, 10.45)};
+  const Hole mouth_ = MakeHole(-1, 1.46, 6.22, 10);
+  const Hole eye_ = MakeHole(0.67, 2.23, 9.55, 6);
   SkinLayout layout_;
   std::vector<std::optional<double>> sections_held_;
   std::vector<std::optional<double>> levels_held_;
