@@ -8,7 +8,7 @@
 
 namespace articap {
 
-Curve::Curve(std::initializer_list<Eigen::Vector2d> knots) {
+Curve::Curve(const std::vector<Eigen::Vector2d>& knots) {
   ARTICAP_CHECK_GE(knots.size(), 2u);
   for (const Eigen::Vector2d& knot : knots) {
     if (!x_.empty()) ARTICAP_CHECK_LT(x_.back(), knot.x());

@@ -12,7 +12,9 @@ namespace articap {
 class Curve {
  public:
   // {abscissa, value} in rising order of the abscissae.
-  Curve(std::initializer_list<Eigen::Vector2d> knots);
+  explicit Curve(const std::vector<Eigen::Vector2d>& knots);
+  Curve(std::initializer_list<Eigen::Vector2d> knots)
+      : Curve(std::vector<Eigen::Vector2d>(knots)) {}
 
   double operator()(double x) const;
 

@@ -97,6 +97,14 @@ double LidHeight(double x, double y, double ground) {
   return z;
 }
 
+bool IsOnFace(double section, const Eigen::Vector3d& on_base) {
+  return section < 3.6 && on_base.y() < 75 && on_base.y() > -110;
+}
+
+bool IsNearNose(const Eigen::Vector3d& on_base) {
+  return on_base.x() < 40 && on_base.y() < 45 && on_base.y() > -40;
+}
+
 }  // namespace
 
 double FaceShape::Hairline(double section) {
@@ -112,15 +120,26 @@ double FaceShape::HairCover(const Eigen::Vector2d& section_level) {
   return SmoothStep(line + 0.1, line + 0.5, section_level.y());
 }
 
+double FaceShape::Ground(double section, const Eigen::Vector3d& on_base) const {
+  // The relief belongs to what faces forward.
+  const double facing = SmoothStep(3.6, 2.6, section);
+  const double x = on_base.x(), y = on_base.y();
+  return on_base.z() + facing * (FaceRelief(x, y) + MouthRelief(x, y));
+}
+
+double FaceShape::NoseRelief(const Eigen::Vector2d& section_level) const {
+  const Eigen::Vector3d point = base_.At(section_level);
+  if (!IsOnFace(section_level.x(), point) || !IsNearNose(point)) return 0;
+  const double ground = Ground(section_level.x(), point);
+  return NoseHeight(point.x(), point.y(), ground) - ground;
+}
+
 Eigen::Vector3d FaceShape::At(const Eigen::Vector2d& section_level) const {
   Eigen::Vector3d point = base_.At(section_level);
-  if (section_level.x() < 3.6 && point.y() < 75 && point.y() > -110) {
-    const double x = point.x();
-    const double y = point.y();
-    // The relief belongs to what faces forward.
-    const double facing = SmoothStep(3.6, 2.6, section_level.x());
-    double z = point.z() + facing * (FaceRelief(x, y) + MouthRelief(x, y));
-    if (x < 40 && y < 45 && y > -40) z = NoseHeight(x, y, z);
+  if (IsOnFace(section_level.x(), point)) {
+    const double x = point.x(), y = point.y();
+    double z = Ground(section_level.x(), point);
+    if (IsNearNose(point)) z = NoseHeight(x, y, z);
     if (x < 56 && y < 40 && y > -12) z = LidHeight(x, y, z);
     point.z() = z;
     // The nostrils open into the underside of the nose.

@@ -27,6 +27,9 @@ class FaceShape {
   // The skin as a view from the front shows it at x, y.
   Eigen::Vector3d InFront(double x_mm, double y_mm) const;
 
+  // How far the nose stands out of the face there, mm.
+  double NoseRelief(const Eigen::Vector2d& section_level) const;
+
   // Level where the hair begins at a section.
   static double Hairline(double section);
   // 1 under the hair, 0 outside.
@@ -35,6 +38,9 @@ class FaceShape {
   const BaseSurface& base() const { return base_; }
 
  private:
+  // Depth z of the face without nose and lids, mm.
+  double Ground(double section, const Eigen::Vector3d& on_base) const;
+
   BaseSurface base_;
 };
 
