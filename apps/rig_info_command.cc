@@ -80,7 +80,7 @@ ExitCode RigInfoCommand(const std::vector<std::string>& arguments) {
   std::string folder;
   line.Flag("--rig", folder, "DIR", "folder of a rig; else the default head");
   if (const auto exit = line.Parse(arguments)) return *exit;
-  const Result<FaceRig> rig = LoadRig(folder);
+  const Result<FaceRig> rig = ChooseRig(folder);
   if (!rig) return FailWith(rig.error());
   return line.Finish({DescribeRig(*rig)});
 }

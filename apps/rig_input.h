@@ -9,6 +9,6 @@
 namespace articap {
 
 // The rig of a folder, or the built-in default head where the folder is empty.
-Result<FaceRig> LoadRig(const std::string& folder);
+Result<FaceRig> ChooseRig(const std::string& folder);
 
 }  // namespace articap

@@ -139,7 +139,7 @@ Result<RigPose> BoundPose(const FaceRig& rig, const std::string& path) {
 }
 
 Result<RigPose> PoseOf(const PoseArguments& arguments) {
-  Result<FaceRig> rig = LoadRig(arguments.rig_folder);
+  Result<FaceRig> rig = ChooseRig(arguments.rig_folder);
   if (!rig) return tl::unexpected(rig.error());
   if (!arguments.binding.empty()) return BoundPose(*rig, arguments.binding);
   const auto identity = ParseIdentity(arguments.identity, *rig);
