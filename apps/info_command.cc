@@ -18,7 +18,7 @@ ExitCode InfoCommand(const std::vector<std::string>& arguments) {
   const Result<MarkerRecording> recording =
       WithProgress("reading " + path, [&] { return ReadMarkers(path, read_options); });
   if (!recording) return FailWith(recording.error());
-  return line.Finish({DescribeRecording(*recording)});
+  return line.Finish({DescribeRecording(*recording, path)});
 }
 
 }  // namespace articap

@@ -18,6 +18,11 @@ const std::vector<articap::VerbEntry>& Verbs() {
       {"info", "what is in a marker file: markers, rate, frames, gaps, units",
        articap::InfoCommand},
       {"convert", "between marker formats", articap::ConvertCommand},
+      {"stabilize", "factor the movement of the head out", articap::StabilizeCommand},
+      {"bind", "tie a speaker's reference pose to a rig, once", articap::BindCommand},
+      {"fit", "markers in, articulatory parameters out", articap::FitCommand},
+      {"synthesize", "a recording of somebody who never lived, with the truth",
+       articap::SynthesizeCommand},
       {"rig", "talking heads: info, render", articap::RigCommand},
   };
   return verbs;

@@ -13,6 +13,10 @@ using Verb = ExitCode (*)(const std::vector<std::string>& arguments);
 
 ExitCode InfoCommand(const std::vector<std::string>& arguments);
 ExitCode ConvertCommand(const std::vector<std::string>& arguments);
+ExitCode StabilizeCommand(const std::vector<std::string>& arguments);
+ExitCode BindCommand(const std::vector<std::string>& arguments);
+ExitCode FitCommand(const std::vector<std::string>& arguments);
+ExitCode SynthesizeCommand(const std::vector<std::string>& arguments);
 ExitCode RigCommand(const std::vector<std::string>& arguments);
 ExitCode RigInfoCommand(const std::vector<std::string>& arguments);
 ExitCode RigRenderCommand(const std::vector<std::string>& arguments);
