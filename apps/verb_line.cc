@@ -17,7 +17,7 @@ namespace articap {
 namespace {
 
 // One file of options serves all verbs; each verb reads the tables of its own stages.
-constexpr std::array<std::string_view, 7> kStageNames = {"read",       "stabilize", "bind",  "fit",
+constexpr std::array<std::string_view, 9> kStageNames = {"read",       "stabilize", "bind",  "fit",
                                                          "synthesize", "noise",     "render"};
 
 Result<toml::table> ReadToml(const std::string& path) {

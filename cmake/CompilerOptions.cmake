@@ -19,7 +19,7 @@ endif()
 # Warnings of articap's own targets; other people's headers are included as SYSTEM.
 function(articap_target_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                         -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
+                         -Wno-sign-conversion -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual)
   # GCC 12 reports std::string's operator+ as overlapping memory (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-restrict)

@@ -34,7 +34,8 @@ struct BindOptions {
   bool fit_identity = true;
   // Identity sliders given by hand, "name=value"; those given are not fitted.
   std::vector<std::string> identity;
-  // The rig's parameters in the reference pose given by hand, "name=value", rad or mm; others are 0.
+  // The rig's parameters in the reference pose given by hand, "name=value", rad or mm; others are
+  // 0.
   std::vector<std::string> pose;
   // Mean distance of the strategic points above which the binding is not usable, mm of the speaker.
   double max_orientation_residual_mm = 15;
@@ -42,9 +43,10 @@ struct BindOptions {
 void VisitOptions(BindOptions& options, OptionVisitor& visit);
 
 // Ties one speaker's reference pose to a rig, once for all takes (Beskow): chooses and averages the
-// reference frames, fits the seven parameters of rig_from_head at the strategic points, and attaches a
-// virtual marker to every face marker, so that the error in the reference pose is exactly zero.
-// `head_shape`: the head references in the head frame, kept in the binding for the other takes.
+// reference frames, fits the seven parameters of rig_from_head at the strategic points, and
+// attaches a virtual marker to every face marker, so that the error in the reference pose is
+// exactly zero. `head_shape`: the head references in the head frame, kept in the binding for the
+// other takes.
 Result<StageResult<Binding>> Bind(const HeadTracks& reference, const HeadShape& head_shape,
                                   const MarkerSet& set, const FaceRig& rig,
                                   const BindOptions& options);
@@ -52,8 +54,8 @@ Result<StageResult<Binding>> Bind(const HeadTracks& reference, const HeadShape& 
 // Parses "FIRST:LAST" or "FRAME" and checks it against the recording.
 Result<FrameRange> ParseFrameRange(const std::string& text, int first_frame, int num_frames);
 
-// The rig with a binding's identity, and its pose in the reference pose, in the rig's own order. Fail
-// where the rig lacks a slider or a parameter that the binding names.
+// The rig with a binding's identity, and its pose in the reference pose, in the rig's own order.
+// Fail where the rig lacks a slider or a parameter that the binding names.
 Result<FaceRig> RigOfBinding(const Binding& binding, const FaceRig& rig);
 Result<Eigen::VectorXd> ReferenceParameters(const Binding& binding, const FaceRig& rig);
 

@@ -37,10 +37,12 @@ struct FitOptions {
   // Standard deviation of a marker's coordinate assumed before the fit, mm of the speaker: decides
   // which parameters the markers can determine.
   double marker_sigma_mm = 0.2;
-  // A parameter whose standard deviation would exceed this part of its range is held at the reference.
+  // A parameter whose standard deviation would exceed this part of its range is held at the
+  // reference.
   double max_sigma_of_range = 0.1;
-  // Weight of a prior on smooth trajectories over the whole take, 0 for none: its strength is that of
-  // one marker coordinate of marker_sigma_mm resisting accelerations of one range per smoothing_s^2.
+  // Weight of a prior on smooth trajectories over the whole take, 0 for none: its strength is that
+  // of one marker coordinate of marker_sigma_mm resisting accelerations of one range per
+  // smoothing_s^2.
   double smoothing_s = 0;
   // Refine each virtual marker's s, t and u over this many frames spread over the take; 0 for none.
   int refine_frames = 0;
@@ -49,8 +51,8 @@ struct FitOptions {
 };
 void VisitOptions(FitOptions& options, OptionVisitor& visit);
 
-// What a fit finds, frame by frame. The rows of the marker tracks are the take's, the markers those of
-// the binding that the take has.
+// What a fit finds, frame by frame. The rows of the marker tracks are the take's, the markers those
+// of the binding that the take has.
 struct ShapeFit {
   ParameterTrack parameters;
   RigTracks measured;         // the face markers, mm of the rig
@@ -59,12 +61,13 @@ struct ShapeFit {
   Eigen::MatrixXf residuals_mm;
 };
 
-// Frames that explained variance must not be judged by, because the binding was made from them; by the
-// take's own numbers. Empty for other takes.
+// Frames that explained variance must not be judged by, because the binding was made from them; by
+// the take's own numbers. Empty for other takes.
 using BindingFrames = FrameRange;
 
-// The shape fit: per frame, the rig's parameters y that minimise the loss of |q_i(y) - p_i| over the
-// markers seen, within the rig's ranges. `rig` without the binding's identity: it is applied here.
+// The shape fit: per frame, the rig's parameters y that minimise the loss of |q_i(y) - p_i| over
+// the markers seen, within the rig's ranges. `rig` without the binding's identity: it is applied
+// here.
 Result<StageResult<ShapeFit>> Fit(const HeadTracks& tracks, const Binding& binding,
                                   const FaceRig& rig, const FitOptions& options,
                                   const BindingFrames& binding_frames = {},

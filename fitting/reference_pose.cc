@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// (value - 5th percentile) / (95th - 5th percentile): 0 where the mouth is shut, 1 where it is open.
+// (value - 5th percentile) / (95th - 5th percentile): 0 where the mouth is shut, 1 where it is
+// open.
 std::vector<double> OverSpread(std::vector<double> values) {
   std::vector<double> sorted;
   std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
@@ -48,7 +49,8 @@ std::vector<double> Speeds(const HeadTracks& tracks, const MarkerSet& set) {
 }
 
 bool HasAny(const std::vector<double>& values) {
-  return std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  return std::any_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
 }
 
 }  // namespace
@@ -64,8 +66,7 @@ std::vector<double> LandmarkDistances(const HeadTracks& tracks, const MarkerSet&
   if (!a || !b) return distances;
   for (int frame = 0; frame < tracks.num_frames(); ++frame)
     if (!tracks.is_missing(frame, *a) && !tracks.is_missing(frame, *b))
-      distances[frame] =
-          (tracks.position_mm(frame, *a) - tracks.position_mm(frame, *b)).norm();
+      distances[frame] = (tracks.position_mm(frame, *a) - tracks.position_mm(frame, *b)).norm();
   return distances;
 }
 
@@ -86,8 +87,8 @@ Result<FrameRange> ProposeReferenceFrames(const HeadTracks& tracks, const Marker
   std::vector<double> score(tracks.num_frames());
   for (int frame = 0; frame < tracks.num_frames(); ++frame) {
     const auto known = [](double value) { return std::isfinite(value) ? value : 1.0; };
-    score[frame] = 2 * known(lip_score[frame]) + 2 * known(jaw_score[frame]) +
-                   known(speed_score[frame]);
+    score[frame] =
+        2 * known(lip_score[frame]) + 2 * known(jaw_score[frame]) + known(speed_score[frame]);
   }
   const int length = std::min(num_frames, tracks.num_frames());
   double sum = 0;
@@ -125,9 +126,9 @@ AveragedPose AverageFrames(const HeadTracks& tracks, const FrameRange& frames) {
     }
     const Eigen::Vector3d mean = sum / count;
     averaged.pose.points.push_back({name, mean});
-    averaged.largest_sd_mm = std::max(
-        averaged.largest_sd_mm,
-        std::sqrt(std::max(0.0, sum_of_squares / count - mean.squaredNorm())));
+    averaged.largest_sd_mm =
+        std::max(averaged.largest_sd_mm,
+                 std::sqrt(std::max(0.0, sum_of_squares / count - mean.squaredNorm())));
   }
   return averaged;
 }

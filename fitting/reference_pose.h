@@ -12,19 +12,21 @@
 
 namespace articap {
 
-// Distance between two markers of a set, by their landmarks, in every frame: NaN where one is missing.
+// Distance between two markers of a set, by their landmarks, in every frame: NaN where one is
+// missing.
 std::vector<double> LandmarkDistances(const HeadTracks& tracks, const MarkerSet& set,
                                       const std::string& landmark_a, const std::string& landmark_b);
 
-// The window of frames, `num_frames` long or the whole take where that is shorter, in which the lips are
-// most closed, the jaw most relaxed upwards and the face most at rest: what Beskow's reference pose asks
-// for. Lips: distance of upper_lip_center to lower_lip_center; jaw: chin to nose_bridge or nose_tip;
-// each over its own spread in the take. Fails where the set has none of these landmarks.
+// The window of frames, `num_frames` long or the whole take where that is shorter, in which the
+// lips are most closed, the jaw most relaxed upwards and the face most at rest: what Beskow's
+// reference pose asks for. Lips: distance of upper_lip_center to lower_lip_center; jaw: chin to
+// nose_bridge or nose_tip; each over its own spread in the take. Fails where the set has none of
+// these landmarks.
 Result<FrameRange> ProposeReferenceFrames(const HeadTracks& tracks, const MarkerSet& set,
                                           int num_frames);
 
-// Every marker's mean position over the frames in which it was seen, mm, head frame. Markers seen in
-// less than half of the frames are left out and named in *left_out.
+// Every marker's mean position over the frames in which it was seen, mm, head frame. Markers seen
+// in less than half of the frames are left out and named in *left_out.
 struct AveragedPose {
   HeadShape pose;
   std::vector<std::string> left_out;
