@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "apps/pose_text.h"
+#include "apps/display_units.h"
 #include "apps/rig_input.h"
 #include "apps/verbs.h"
 

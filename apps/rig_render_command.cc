@@ -3,14 +3,16 @@
 
 #include <optional>
 
+#include "apps/display_units.h"
 #include "apps/output_set.h"
-#include "apps/pose_text.h"
 #include "apps/progress.h"
 #include "apps/rig_input.h"
 #include "apps/verbs.h"
 #include "core/binding.h"
+#include "fitting/bind.h"
 #include "render/label.h"
 #include "render/rig_view.h"
+#include "rig/pose_text.h"
 
 namespace articap {
 namespace {
@@ -105,30 +107,19 @@ Picture IdentitySheet(const RigPose& neutral, const RigRenderOptions& options) {
 }
 
 struct PoseArguments {
-  std::string rig_folder, pose, identity, binding;
+  std::string rig_folder, binding;
+  std::vector<std::string> pose, identity;
 };
 
 // The pose and identity of a binding, with the markers that it was tied to over the face.
 Result<RigPose> BoundPose(const FaceRig& rig, const std::string& path) {
   const Result<Binding> binding = ReadBinding(path);
   if (!binding) return tl::unexpected(binding.error());
-  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(rig.num_parameters());
-  for (const NamedValue& named : binding->rig_parameters) {
-    const auto index = rig.FindParameter(named.name);
-    if (!index)
-      return Fail(
-          fmt::format("{}: the rig has no parameter '{}'; the binding is of the rig {}, "
-                      "name that with --rig",
-                      path, named.name, binding->rig_name));
-    parameters[*index] = named.value;
-  }
-  Eigen::VectorXd identity = rig.identity();
-  const auto& sliders = rig.definition().identity_sliders;
-  for (std::size_t index = 0; index < sliders.size(); ++index)
-    for (const NamedValue& named : binding->rig_identity)
-      if (named.name == sliders[index].name)
-        identity[static_cast<Eigen::Index>(index)] = named.value;
-  RigPose bound = {rig.WithIdentity(identity), parameters, {}};
+  Result<FaceRig> speaker = RigOfBinding(*binding, rig);
+  if (!speaker) return tl::unexpected(speaker.error());
+  const Result<Eigen::VectorXd> parameters = ReferenceParameters(*binding, *speaker);
+  if (!parameters) return tl::unexpected(parameters.error());
+  RigPose bound = {std::move(*speaker), *parameters, {}};
   constexpr double kMarkerRadiusMm = 2;  // the paper's markers are 4 mm wide
   const Eigen::Vector3f marker_color(0.05f, 0.25f, 0.9f);
   for (const NamedPoint& point : binding->reference_pose.points)
@@ -142,10 +133,13 @@ Result<RigPose> PoseOf(const PoseArguments& arguments) {
   Result<FaceRig> rig = ChooseRig(arguments.rig_folder);
   if (!rig) return tl::unexpected(rig.error());
   if (!arguments.binding.empty()) return BoundPose(*rig, arguments.binding);
-  const auto identity = ParseIdentity(arguments.identity, *rig);
-  if (!identity) return tl::unexpected(identity.error());
-  FaceRig own = rig->WithIdentity(*identity);
-  const auto parameters = ParsePose(arguments.pose, own);
+  const auto sliders = ParseIdentity(*rig, arguments.identity);
+  if (!sliders) return tl::unexpected(sliders.error());
+  Eigen::VectorXd identity = rig->identity();
+  for (std::size_t index = 0; index < sliders->size(); ++index)
+    if ((*sliders)[index]) identity[static_cast<Eigen::Index>(index)] = *(*sliders)[index];
+  FaceRig own = rig->WithIdentity(identity);
+  const auto parameters = ParsePose(own, arguments.pose);
   if (!parameters) return tl::unexpected(parameters.error());
   return RigPose{std::move(own), *parameters, {}};
 }

@@ -70,6 +70,15 @@ CLI::Option* VerbLine::Flag(const std::string& flags, bool& value, const std::st
   return app_.add_flag(flags, value, help);
 }
 
+CLI::Option* VerbLine::Flag(const std::string& flags, std::vector<std::string>& values,
+                            const std::string& type, const std::string& help) {
+  return app_.add_option(flags, values, help)
+      ->type_name(type)
+      ->delimiter(',')
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+}
+
 void VerbLine::AddStage(const std::string& stage, const std::string& prefix,
                         std::function<void(OptionVisitor&)> visit) {
   FlagRegistrar registrar(app_, prefix, stage);

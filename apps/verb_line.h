@@ -42,6 +42,9 @@ class VerbLine {
   CLI::Option* Flag(const std::string& flags, std::string& value, const std::string& type,
                     const std::string& help);
   CLI::Option* Flag(const std::string& flags, bool& value, const std::string& help);
+  // A list, its entries separated by commas.
+  CLI::Option* Flag(const std::string& flags, std::vector<std::string>& values,
+                    const std::string& type, const std::string& help);
 
   // Every field of a stage's option struct becomes a flag, `prefix` before its name; the file of
   // --config holds them in the table [stage].

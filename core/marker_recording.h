@@ -35,10 +35,14 @@ struct AnalogData {
 // What a marker file holds: positions in mm in the stage frame, and all that came with them.
 struct MarkerRecording {
   StageTracks tracks;
-  // Frames x markers, both empty where the source has none. C3D's residual in mm (0 for generated
-  // samples) and the bits of the cameras that saw the marker.
+  // Frames x markers, frame by frame; each empty where the source has none. C3D's residual in mm (0
+  // for generated samples, NaN for missing ones) and the bits of the seven cameras that saw the
+  // marker (0 where missing).
   std::vector<float> residuals_mm;
   std::vector<std::uint8_t> camera_masks;
+  // The step that the source rounded its residuals to, 0 where unknown: C3D keeps a residual as a
+  // multiple (0 to 255) of |POINT:SCALE|, and writing with the same step loses nothing.
+  float residual_step_mm = 0;
   std::vector<std::string> descriptions;  // of each marker; may be empty
   std::string subject;                    // prefix of the labels ("Anna:chin"), taken off the names
   std::string source_unit;                // the file's own unit of length, e.g. "cm"
