@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/marker_set.h"
@@ -12,12 +11,9 @@
 
 namespace articap {
 
-// A virtual marker on a vertex of the rig itself; nothing where the vertex has no triangle.
-std::optional<VirtualMarker> AttachToVertex(const FaceRig& rig, int vertex);
-
 // Glues every marker of the set to the skin (or the spectacles) at its landmark, with its height
 // above the surface: up to `misplacement_mm` beside it, as hands place markers. It stays in the
-// region that the set asks for, or else in those that meet at the landmark.
+// region that the set asks for, or else in its landmark's.
 Result<std::vector<VirtualMarker>> AttachMarkers(const FaceRig& rig, const MarkerSet& set,
                                                  double misplacement_mm, RandomGenerator& random);
 

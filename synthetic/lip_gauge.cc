@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "synthetic/attachment.h"
+#include "core/check.h"
 
 namespace articap {
 namespace {
@@ -52,12 +52,22 @@ std::optional<Seam> FindSeam(const FaceRig& rig) {
   return seam;
 }
 
+// A virtual marker at a vertex that has triangles.
+VirtualMarker AtVertex(const FaceRig& rig, int vertex) {
+  for (const Eigen::Vector3i& triangle : rig.neutral_mesh().triangles)
+    for (int corner = 0; corner < 3; ++corner)
+      if (triangle[corner] == vertex)
+        return {"", {vertex, triangle[(corner + 1) % 3], triangle[(corner + 2) % 3]}, 0, 0, 0};
+  ARTICAP_CHECK(false);
+  return {};
+}
+
 }  // namespace
 
 std::optional<LipGauge> LipGauge::Create(const FaceRig& rig) {
   const auto seam = FindSeam(rig);
   if (!seam) return std::nullopt;
-  return LipGauge(rig, *AttachToVertex(rig, seam->upper), *AttachToVertex(rig, seam->lower));
+  return LipGauge(rig, AtVertex(rig, seam->upper), AtVertex(rig, seam->lower));
 }
 
 LipGauge::LipGauge(const FaceRig& rig, const VirtualMarker& upper, const VirtualMarker& lower)
