@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "apps/fit_pipeline.h"
+#include "apps/marker_input.h"
+#include "apps/output_set.h"
+#include "apps/resources.h"
+#include "apps/rig_input.h"
+#include "apps/verbs.h"
+
+namespace articap {
+namespace {
+
+struct BindArguments {
+  std::string reference, rig_folder, map, output;
+  PipelineOptions pipeline;
+};
+
+Result<std::vector<StageReport>> RunBind(const BindArguments& arguments) {
+  const Result<FaceRig> rig = ChooseRig(arguments.rig_folder);
+  if (!rig) return tl::unexpected(rig.error());
+  const Result<MarkerSet> set = ReadMap(arguments.map);
+  if (!set) return tl::unexpected(set.error());
+  const Result<Take> reference =
+      ReadTake(arguments.reference, arguments.pipeline.read, arguments.pipeline.mirror);
+  if (!reference) return tl::unexpected(reference.error());
+  Result<BoundReference> bound = BindTake(*reference, *set, *rig, arguments.pipeline);
+  if (!bound) return tl::unexpected(bound.error());
+  const auto sources = SourcesOf(arguments.reference, arguments.map, *rig);
+  if (!sources) return tl::unexpected(sources.error());
+  bound->binding.sources = *sources;
+
+  OutputSet outputs;
+  outputs.Add(arguments.output, WriteBinding(bound->binding));
+  if (const auto allowed = outputs.RefuseToOverwrite({arguments.reference}); !allowed)
+    return tl::unexpected(allowed.error());
+  if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
+  return bound->reports;
+}
+
+}  // namespace
+
+ExitCode BindCommand(const std::vector<std::string>& arguments) {
+  VerbLine line(
+      "articap bind",
+      "Ties a speaker's reference pose (face relaxed, jaw and lips closed) to a rig, once\n"
+      "for all takes. The pose and identity in the binding can be edited by hand; look at\n"
+      "them with 'articap rig render OUT.png --binding FILE'.",
+      "articap bind reference.c3d --map spectacles30 -o anna.binding.toml");
+  BindArguments values;
+  line.Argument("REFERENCE", values.reference, "marker file with the reference pose");
+  line.Flag("--map", values.map, "NAME|FILE", "marker map: where each marker sits")->required();
+  line.Flag("--rig", values.rig_folder, "DIR", "folder of a rig; else the default head");
+  line.Flag("-o,--output", values.output, "FILE", "binding to write, TOML")->required();
+  line.Flag("--mirror", values.pipeline.mirror, "the recording is mirrored; mirror it back");
+  line.Stage("bind", values.pipeline.bind);
+  line.Stage("read", values.pipeline.read);
+  line.Stage("stabilize", values.pipeline.stabilize, "stabilize");
+  if (const auto exit = line.Parse(arguments)) return *exit;
+  const auto reports = RunBind(values);
+  return reports ? line.Finish(*reports) : FailWith(reports.error());
+}
+
+}  // namespace articap

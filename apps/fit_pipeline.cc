@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "apps/fit_pipeline.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "apps/progress.h"
+
+namespace articap {
+namespace {
+
+Result<FitOutcome> FitStabilized(const Take& take, Stabilized stabilized, Binding binding,
+                                 const FaceRig& rig, const PipelineOptions& options,
+                                 const FrameRange& binding_frames,
+                                 std::vector<StageReport> reports) {
+  const HeadTracks& tracks = stabilized.tracks;
+  auto fit = WithProgress(fmt::format("fitting {} frames", tracks.num_frames()),
+                          [&] { return Fit(tracks, binding, rig, options.fit, binding_frames); });
+  if (!fit) return tl::unexpected(fit.error());
+  reports.push_back(std::move(fit->report));
+  return FitOutcome{take.path.stem().string(),       std::move(binding),
+                    std::move(stabilized.head_pose), std::move(stabilized.head_shape),
+                    std::move(fit->output),          std::move(reports)};
+}
+
+}  // namespace
+
+Result<BoundReference> BindTake(const Take& reference, const MarkerSet& set, const FaceRig& rig,
+                                const PipelineOptions& options) {
+  auto stabilized = StabilizeTake(reference, set, std::nullopt, options.stabilize);
+  if (!stabilized) return tl::unexpected(stabilized.error());
+  auto bound = WithProgress("binding " + reference.path.string(), [&] {
+    return Bind(stabilized->output.tracks, stabilized->output.head_shape, set, rig, options.bind);
+  });
+  if (!bound) return Fail(fmt::format("{}: {}", reference.path.string(), bound.error().message));
+  return BoundReference{
+      std::move(bound->output),
+      std::move(stabilized->output),
+      {reference.report, std::move(stabilized->report), std::move(bound->report)}};
+}
+
+Result<FitOutcome> FitBoundTake(const Take& take, const Binding& binding, const FaceRig& rig,
+                                const PipelineOptions& options) {
+  std::optional<HeadShape> shape;
+  if (!binding.head_shape.points.empty()) shape = binding.head_shape;
+  auto stabilized = StabilizeTake(take, binding.marker_set, shape, options.stabilize);
+  if (!stabilized) return tl::unexpected(stabilized.error());
+  std::vector<StageReport> reports = {take.report, stabilized->report};
+  return FitStabilized(take, std::move(stabilized->output), binding, rig, options, {},
+                       std::move(reports));
+}
+
+Result<FitOutcome> FitTakeByItself(const Take& take, const MarkerSet& set, const FaceRig& rig,
+                                   const PipelineOptions& options) {
+  auto bound = BindTake(take, set, rig, options);
+  if (!bound) return tl::unexpected(bound.error());
+  const FrameRange binding_frames = bound->binding.reference_frames;
+  return FitStabilized(take, std::move(bound->stabilized), std::move(bound->binding), rig, options,
+                       binding_frames, std::move(bound->reports));
+}
+
+Result<void> LabelFrames(const TextGrid& labels, const std::string& tier, ParameterTrack& track) {
+  const auto phones = FindPhoneTier(labels, tier);
+  if (!phones) return tl::unexpected(phones.error());
+  std::vector<SessionTime> times;
+  for (int frame = 0; frame < track.num_frames(); ++frame)
+    times.push_back(TimeOfFrame(frame, track.rate_hz, track.start));
+  track.phones = LabelsOfFrames(**phones, times);
+  return {};
+}
+
+}  // namespace articap

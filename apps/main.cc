@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "apps/verbs.h"
+#include "core/check.h"
+#include "core/version.h"
+
+namespace {
+
+// In the order of the data.
+const std::vector<articap::VerbEntry>& Verbs() {
+  static const std::vector<articap::VerbEntry> verbs = {
+      {"info", "what is in a marker file: markers, rate, frames, gaps, units",
+       articap::InfoCommand},
+      {"convert", "between marker formats", articap::ConvertCommand},
+      {"stabilize", "factor the movement of the head out", articap::StabilizeCommand},
+      {"bind", "tie a speaker's reference pose to a rig, once", articap::BindCommand},
+      {"fit", "markers in, articulatory parameters out", articap::FitCommand},
+      {"synthesize", "a recording of somebody who never lived, with the truth",
+       articap::SynthesizeCommand},
+      {"rig", "talking heads: info, render", articap::RigCommand},
+  };
+  return verbs;
+}
+
+articap::ExitCode Run(const std::vector<std::string>& arguments) {
+  if (!arguments.empty() && arguments[0] == "--version") {
+    fmt::print("articap {}\n", articap::kVersion);
+    return articap::ExitCode::kUsable;
+  }
+  return articap::RunVerb("articap",
+                          "articap: facial motion capture in, articulatory parameters out", Verbs(),
+                          arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using articap::ExitCode;
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  ExitCode code = ExitCode::kNotUsable;
+  try {
+    code = Run(arguments);
+  } catch (const std::bad_alloc&) {
+    code = articap::FailWith(ExitCode::kNotUsable, "there is not enough memory for this input");
+  } catch (const std::exception& error) {
+    code = articap::FailWith(
+        ExitCode::kNotUsable,
+        fmt::format("a mistake in articap itself, please report it: {}", error.what()));
+  }
+  return static_cast<int>(code);
+}
