@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "rig/io/rig_toml.h"
-#include "rig/io/toml_reader.h"
+#include "core/toml_reader.h"
 
 namespace articap {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <iterator>
 
-#include "rig/io/toml_reader.h"
+#include "core/toml_reader.h"
 
 namespace articap {
 namespace {

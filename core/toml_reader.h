@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "toml++/toml.h"
+#include <toml++/toml.h>
 
 namespace articap {
 

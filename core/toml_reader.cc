@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rig/io/toml_reader.h"
+#include "core/toml_reader.h"
 
 #include <fmt/format.h>
 
