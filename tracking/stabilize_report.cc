@@ -42,12 +42,12 @@ ReportTable ReferenceTable(const RigidFindings& findings) {
   for (int i = 0; i < model.size(); ++i) {
     const double seen = findings.statistics.num_seen[i];
     const double outliers = findings.statistics.num_outliers[i];
-    const double used = seen - outliers;
+    const double used = findings.statistics.num_used[i];
     ReportTable::Row row{
         findings.tracks.names()[model.columns[i]],
         {100 * seen / std::max(findings.tracks.num_frames(), 1),
          used > 0 ? std::sqrt(findings.statistics.sum_of_squares_mm2[i] / used) : kNaN,
-         model.sigmas_mm[i], seen > 0 ? 100 * outliers / seen : kNaN}};
+         model.sigmas_mm[i], used + outliers > 0 ? 100 * outliers / (used + outliers) : kNaN}};
     if (findings.search) row.values.push_back(findings.search->distance_change_mm[i]);
     if (!findings.deviation_mm.empty()) row.values.push_back(findings.deviation_mm[i]);
     table.rows.push_back(std::move(row));

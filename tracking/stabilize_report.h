@@ -15,12 +15,15 @@ namespace articap {
 // What the frames of a take say about each reference.
 struct ReferenceStatistics {
   std::vector<int> num_seen;
+  // In the frames with a pose.
   std::vector<int> num_outliers;
-  std::vector<double> sum_of_squares_mm2;  // of the residuals, outliers left out
+  std::vector<int> num_used;
+  std::vector<double> sum_of_squares_mm2;  // of the residuals of those used
 
   explicit ReferenceStatistics(int num_references)
       : num_seen(num_references),
         num_outliers(num_references),
+        num_used(num_references),
         sum_of_squares_mm2(num_references) {}
 };
 

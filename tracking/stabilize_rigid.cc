@@ -170,6 +170,7 @@ PosedTake PoseEveryFrame(const StageTracks& tracks, FrameAligner& aligner,
       if (std::isnan(residual_mm)) continue;
       const bool is_outlier = aligner.IsOutlier(i);
       take.statistics.num_outliers[i] += is_outlier;
+      take.statistics.num_used[i] += !is_outlier;
       if (!is_outlier) take.statistics.sum_of_squares_mm2[i] += residual_mm * residual_mm;
     }
   }

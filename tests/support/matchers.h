@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 
+#include "core/tracks.h"
 #include "core/transforms.h"
 
 namespace articap {
@@ -31,6 +33,33 @@ MATCHER_P4(Sim3dNear, expected, tolerance_rad, tolerance_mm, tolerance_scale,
   *result_listener << "which is turned by " << angle << " rad, moved by " << distance
                    << " mm, scaled by 1 + " << scale;
   return angle <= tolerance_rad && distance <= tolerance_mm && scale <= tolerance_scale;
+}
+
+// The same markers, frames and states, and positions within the tolerance; of any frame of
+// reference.
+MATCHER_P2(TracksNear, expected, tolerance_mm, "are the tracks within the tolerance") {
+  if (arg.names() != expected.names() || arg.num_frames() != expected.num_frames()) {
+    *result_listener << "which have other markers or " << arg.num_frames() << " frames";
+    return false;
+  }
+  double worst_mm = 0;
+  for (int frame = 0; frame < arg.num_frames(); ++frame)
+    for (int marker = 0; marker < arg.num_markers(); ++marker) {
+      const bool same_state = arg.state(frame, marker) == expected.state(frame, marker);
+      const double distance_mm =
+          arg.is_missing(frame, marker)
+              ? 0.0
+              : (arg.position_mm(frame, marker) - expected.position_mm(frame, marker)).norm();
+      if (!same_state || distance_mm > tolerance_mm) {
+        *result_listener << "which differ at frame " << frame << ", marker '" << arg.names()[marker]
+                         << "'" << (same_state ? "" : " in their state") << " by " << distance_mm
+                         << " mm";
+        return false;
+      }
+      worst_mm = std::max(worst_mm, distance_mm);
+    }
+  *result_listener << "which differ by up to " << worst_mm << " mm";
+  return true;
 }
 
 }  // namespace articap
