@@ -65,9 +65,9 @@ void AddBrow(const FaceShape& shape, HalfMesh& half) {
     for (int j = 0; j <= kAcross; ++j) {
       const double v = 2.0 * j / kAcross - 1;
       Vector3d p = shape.InFront(x + 0.8 * v, kMiddle(x) + v * kHalfWidth(x));
-      // The cushion's edge sinks into the skin.
+      // A cushion that thins out towards its ends.
       p.z() +=
-          1.5 * (1 - v * v) * SmoothStep(-1, 2.5, i) * SmoothStep(kAlong + 1, kAlong - 3, i) - 0.35;
+          1.5 * (1 - v * v) * SmoothStep(-1, 2.5, i) * SmoothStep(kAlong + 1, kAlong - 3, i) + 0.15;
       rows.back().push_back(
           half.AddVertex(p, LinearRgb(palette::kBrow), Part::kBrows, Carrier::kSkull));
     }

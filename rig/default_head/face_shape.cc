@@ -119,7 +119,7 @@ double FaceShape::Hairline(double section) {
 
 double FaceShape::HairCover(const Eigen::Vector2d& section_level) {
   const double line = Hairline(section_level.x());
-  return SmoothStep(line + 0.1, line + 0.5, section_level.y());
+  return SmoothStep(line + 0.4, line + 0.9, section_level.y());
 }
 
 double FaceShape::Ground(double section, const Eigen::Vector3d& on_base) const {

@@ -31,7 +31,7 @@ void AddHair(const FaceShape& shape, HalfMesh& half) {
       const double top = SmoothStep(10.5, 14, t);
       // The edge sinks into the skin and rises steeply, so that the hairline is where it is drawn.
       const double thick = (0.30 + 0.70 * top) * SmoothStep(-0.03, 0.17, along);
-      const double lift_mm = along == 0 ? -2.0 : 0.6 + kThickness_mm * thick;
+      const double lift_mm = along == 0 ? -2.0 : 0.8 + kThickness_mm * thick;
       Vector3d p = base.At(s, t) + lift_mm * base.Outward(s, t);
       if (c == 0 || c == kColumns) p.x() = 0;
       p.x() = std::max(p.x(), 0.0);
