@@ -65,8 +65,8 @@ void AddEar(HalfMesh& half) {
   const Vector3f skin = LinearRgb(palette::kSkin);
   const Vector3f blush = LinearRgb(palette::kBlush);
   std::vector<int> inner(
-      kSegments, half.AddVertex(EarPoint({0, -3.8, false}, 0),
-                                LinearRgb(palette::kMouthInside), Part::kSkin, Carrier::kSkull));
+      kSegments, half.AddVertex(EarPoint({0, -3.8, false}, 0), LinearRgb(palette::kMouthInside),
+                                Part::kSkin, Carrier::kSkull));
   for (const EarRing& ring : kRings) {
     std::vector<int> outer;
     for (int k = 0; k < kSegments; ++k) {

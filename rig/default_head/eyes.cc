@@ -20,10 +20,10 @@ int AddEyeball(HalfMesh& half) {
     std::uint32_t color;
   };
   // Pupil 4 mm, iris 11.8 mm across.
-  static constexpr Ring kRings[] = {
-      {8.7, palette::kPupil}, {9.7, palette::kIris},     {17, palette::kIris},
-      {24.5, palette::kIris}, {26.0, palette::kIrisRim}, {28.2, palette::kSclera},
-      {45, palette::kSclera}, {65, palette::kSclera},    {95, palette::kSclera}};
+  static constexpr Ring kRings[] = {{8.7, palette::kPupil},    {9.7, palette::kIris},
+                                    {17, palette::kIris},      {24.5, palette::kIris},
+                                    {26.0, palette::kIrisRim}, {28.2, palette::kSclera},
+                                    {50, palette::kSclera},    {80, palette::kSclera}};
   const Vector3d center(face::kPupilX, face::kPupilY, face::kEyeZ);
   const int pivot =
       half.AddVertex(center, LinearRgb(palette::kSclera), Part::kEyes, Carrier::kSkull);

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 void AddHair(const FaceShape& shape, HalfMesh& half) {
-  constexpr int kColumns = 34;
+  constexpr int kColumns = 42;
   constexpr double kThickness_mm = 7.5;
   // From the hairline (0) to the crown (1); denser at the edge, where the hair rises from the skin.
   static constexpr double kRows[] = {0, 0.01, 0.05, 0.13, 0.25, 0.39, 0.52, 0.64, 0.75, 0.85, 0.94};
