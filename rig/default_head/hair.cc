@@ -2,6 +2,7 @@
 #include "rig/default_head/hair.h"
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "rig/default_head/curve.h"
@@ -25,7 +26,7 @@ void AddHair(const FaceShape& shape, HalfMesh& half) {
     for (int c = 0; c <= kColumns; ++c) {
       // Denser at the temple and round the ear, where the hairline bends.
       const double u = c / static_cast<double>(kColumns);
-      const double s = BaseSurface::kBackSection * (u - 0.045 * std::sin(2 * M_PI * u));
+      const double s = BaseSurface::kBackSection * (u - 0.045 * std::sin(2 * std::numbers::pi * u));
       const double line = FaceShape::Hairline(s);
       const double t = line + along * (BaseSurface::kCrownLevel - line);
       const double top = SmoothStep(10.5, 14, t);
