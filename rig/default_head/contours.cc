@@ -2,6 +2,7 @@
 #include "rig/default_head/contours.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "rig/default_head/curve.h"
 #include "rig/default_head/face_shape.h"
@@ -34,7 +35,7 @@ Eigen::Vector2d LidMargin(Lid lid, double fraction) {
                            {30, 18.9},   {35, 18.5},   {40, 16.9}, {45, 14.4}};
   static const Curve lower{{16.2, 12.2}, {19, 10.9}, {24, 9.4},  {29, 8.6},
                            {34, 8.6},    {39, 9.9},  {43, 12.3}, {45, 14.4}};
-  const double smooth = 0.5 - 0.5 * std::cos(M_PI * fraction);
+  const double smooth = 0.5 - 0.5 * std::cos(std::numbers::pi * fraction);
   const double x = 16.2 + 28.8 * (0.55 * fraction + 0.45 * smooth);
   return {x, lid == Lid::kUpper ? upper(x) : lower(x)};
 }

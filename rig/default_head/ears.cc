@@ -16,7 +16,7 @@ using Eigen::Vector3f;
 
 constexpr double kMiddleY = 2;  // of the concha, mm, rig frame
 constexpr double kMiddleZ = -13;
-constexpr double kSideX = 70.5;  // the head's side there
+constexpr double kSideX = 71.0;  // the head's side there
 
 // A ring of the ear round the concha: how far out in the ear's plane (1 is the outline), and its
 // relief, mm off that plane, on the front and the back side.
@@ -25,7 +25,7 @@ struct EarRing {
   double relief_mm;
   bool lobe_is_flat;
 };
-constexpr EarRing kRings[] = {{0.22, -5.0, false}, {0.42, -4.2, false}, {0.55, -0.8, false},
+constexpr EarRing kRings[] = {{0.22, -3.6, false}, {0.42, -3.0, false}, {0.55, -0.6, false},
                               {0.66, 1.6, true},   {0.76, 0.2, true},   {0.85, -0.8, true},
                               {0.92, 2.2, true},   {0.985, 3.0, true},  {1.0, 1.0, true},
                               {0.95, -1.8, true},  {0.82, -4.0, true},  {0.6, -12, true}};
@@ -43,28 +43,30 @@ Vector3d EarPoint(const EarRing& ring, double degrees) {
   const double backward = ring.radius * Outline(degrees) * std::cos(angle);
   const double upward = ring.radius * Outline(degrees) * std::sin(angle);
   const double lobe = Bell((degrees - 275) / 25);
-  const double front = Bell((degrees - 180) / 26);
+  const double front = Bell((degrees - 185) / 32);
   double relief = ring.relief_mm;
   if (ring.lobe_is_flat && relief > -1) relief *= 1 - 0.75 * lobe;
   // The tragus covers the front of the concha.
   if (ring.radius > 0.5 && ring.radius < 0.97 && relief > -1.5)
-    relief += 2.5 * front * Bell((ring.radius - 0.72) / 0.15);
+    relief += 1.2 * front * Bell((ring.radius - 0.72) / 0.15);
   const double hinge = 0.38 * (backward + 11) * (1 - 0.8 * lobe);
+  // The lobe lies on the cheek.
+  const double lobe_inward = 3.0 * SmoothStep(-8, -24, upward);
   // The ear leans back by 8 degrees.
   const double lean = 0.14 * upward;
-  return {kSideX + hinge + relief + 0.07 * upward - 1.5 * front,
+  return {kSideX + hinge + relief + 0.08 * upward - lobe_inward - 1.5 * front,
           kMiddleY + upward + 0.14 * backward, kMiddleZ - backward - lean};
 }
 
 }  // namespace
 
 void AddEar(HalfMesh& half) {
-  constexpr int kSegments = 20;
+  constexpr int kSegments = 24;
   const Vector3f skin = LinearRgb(palette::kSkin);
   const Vector3f blush = LinearRgb(palette::kBlush);
   std::vector<int> inner(
-      kSegments, half.AddVertex({kSideX - 5, kMiddleY - 1, kMiddleZ + 4},
-                                LinearRgb(palette::kMouthInside), Part::kSkin, Carrier::kSkull));
+      kSegments, half.AddVertex(EarPoint({0, -3.8, false}, 0), LinearRgb(palette::kMouthInside),
+                                Part::kSkin, Carrier::kSkull));
   for (const EarRing& ring : kRings) {
     std::vector<int> outer;
     for (int k = 0; k < kSegments; ++k) {

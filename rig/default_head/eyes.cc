@@ -20,10 +20,10 @@ int AddEyeball(HalfMesh& half) {
     std::uint32_t color;
   };
   // Pupil 4 mm, iris 11.8 mm across.
-  static constexpr Ring kRings[] = {
-      {8.7, palette::kPupil}, {9.7, palette::kIris},     {17, palette::kIris},
-      {24.5, palette::kIris}, {26.0, palette::kIrisRim}, {28.2, palette::kSclera},
-      {45, palette::kSclera}, {65, palette::kSclera},    {95, palette::kSclera}};
+  static constexpr Ring kRings[] = {{8.7, palette::kPupil},    {9.7, palette::kIris},
+                                    {17, palette::kIris},      {24.5, palette::kIris},
+                                    {26.0, palette::kIrisRim}, {28.2, palette::kSclera},
+                                    {50, palette::kSclera},    {80, palette::kSclera}};
   const Vector3d center(face::kPupilX, face::kPupilY, face::kEyeZ);
   const int pivot =
       half.AddVertex(center, LinearRgb(palette::kSclera), Part::kEyes, Carrier::kSkull);
@@ -65,9 +65,9 @@ void AddBrow(const FaceShape& shape, HalfMesh& half) {
     for (int j = 0; j <= kAcross; ++j) {
       const double v = 2.0 * j / kAcross - 1;
       Vector3d p = shape.InFront(x + 0.8 * v, kMiddle(x) + v * kHalfWidth(x));
-      // The cushion's edge sinks into the skin.
+      // A cushion that thins out towards its ends.
       p.z() +=
-          1.5 * (1 - v * v) * SmoothStep(-1, 2.5, i) * SmoothStep(kAlong + 1, kAlong - 3, i) - 0.35;
+          1.5 * (1 - v * v) * SmoothStep(-1, 2.5, i) * SmoothStep(kAlong + 1, kAlong - 3, i) + 0.15;
       rows.back().push_back(
           half.AddVertex(p, LinearRgb(palette::kBrow), Part::kBrows, Carrier::kSkull));
     }

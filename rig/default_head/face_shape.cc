@@ -53,8 +53,8 @@ double MouthRelief(double x, double y) {
   double z = 0;
   z += 4.2 * Bell2(x / 16, (y + 52) / 11);
   // philtrum between its two ridges
-  z -= 1.3 * Bell2(x / 2.4, (y + 38.5) / 5.5);
-  z += 0.7 * Bell2((x - 5.2) / 2.2, (y + 39) / 6);
+  z -= 1.7 * Bell2(x / 2.5, (y + 38.5) / 5.5);
+  z += 0.9 * Bell2((x - 5.2) / 2.2, (y + 39) / 6);
   // corner of the mouth
   z -= 1.4 * Bell2((x - 28.5) / 3.0, (y + 55) / 4.5);
   // furrow between lower lip and chin, chin
@@ -119,7 +119,7 @@ double FaceShape::Hairline(double section) {
 
 double FaceShape::HairCover(const Eigen::Vector2d& section_level) {
   const double line = Hairline(section_level.x());
-  return SmoothStep(line + 0.1, line + 0.5, section_level.y());
+  return SmoothStep(line + 0.4, line + 0.9, section_level.y());
 }
 
 double FaceShape::Ground(double section, const Eigen::Vector3d& on_base) const {

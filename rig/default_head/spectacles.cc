@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kSides = 6;  // of a bar's cross-section
+constexpr int kSides = 5;  // of a bar's cross-section
 
 // A bar along a path; closed paths end where they begin. Radii in mm across and along `flat`.
 void AddBar(const std::vector<Vector3d>& path, bool closed, double radius_mm, HalfMesh& half) {

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -47,7 +48,7 @@ std::optional<double> BoundJawWeight(double section, double level) {
 }
 
 // Half cotangents of a triangle's angles, opposite to each corner; not below a small positive
-// value, so that the harmonic function keeps between its bounds.
+// value, so that the energy has one minimum.
 std::array<double, 3> CotanWeights(const HalfMesh& half, const Eigen::Vector3i& corners) {
   std::array<double, 3> weights;
   for (int i = 0; i < 3; ++i) {
@@ -63,52 +64,58 @@ std::array<double, 3> CotanWeights(const HalfMesh& half, const Eigen::Vector3i& 
 // plate keeps creases away from the bound places, the membrane overshoots.
 constexpr double kTension = 1.0 / (30.0 * 30.0);
 
-void FillHarmonic(const HalfMesh& half, const std::vector<bool>& in_domain,
-                  std::vector<std::optional<double>>& values) {
-  std::vector<int> unknown(values.size(), -1);
-  int size = 0;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (in_domain[i] && !values[i]) unknown[i] = size++;
-  const int num_values = static_cast<int>(values.size());
+// Energy matrix of a plate under tension over the triangles whose vertices are all in the domain,
+// from the cotangent Laplacian L and the vertices' areas A: L' A^-1 L + tension L.
+Eigen::SparseMatrix<double> PlateMatrix(const HalfMesh& half, const std::vector<bool>& in_domain) {
+  const int size = static_cast<int>(in_domain.size());
   std::vector<Eigen::Triplet<double>> entries;
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(num_values);
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(size);
   for (const HalfMesh::Triangle& triangle : half.triangles) {
     const Eigen::Vector3i& v = triangle.corners;
     if (!in_domain[v[0]] || !in_domain[v[1]] || !in_domain[v[2]]) continue;
     const std::array<double, 3> weights = CotanWeights(half, v);
-    const double third = (half.position(v[1]) - half.position(v[0]))
-                             .cross(half.position(v[2]) - half.position(v[0]))
-                             .norm() /
-                         6;
+    const Vector3d cross = (half.position(v[1]) - half.position(v[0]))
+                               .cross(half.position(v[2]) - half.position(v[0]));
     for (int i = 0; i < 3; ++i) {
       const int a = v[(i + 1) % 3], b = v[(i + 2) % 3];
       entries.emplace_back(a, b, -weights[i]);
       entries.emplace_back(b, a, -weights[i]);
       entries.emplace_back(a, a, weights[i]);
       entries.emplace_back(b, b, weights[i]);
-      area[v[i]] += third;
+      area[v[i]] += cross.norm() / 6;
     }
   }
-  Eigen::SparseMatrix<double> laplacian(num_values, num_values);
+  Eigen::SparseMatrix<double> laplacian(size, size);
   laplacian.setFromTriplets(entries.begin(), entries.end());
+  // The tiny cells at the corners of the mouth must not outweigh the rest.
+  static constexpr double kLeastArea_mm2 = 0.5;
   const Eigen::VectorXd inverse_area =
-      area.unaryExpr([](double a) { return a > 0 ? 1 / std::max(a, 0.5) : 0; });
-  const Eigen::SparseMatrix<double> bending =
-      Eigen::SparseMatrix<double>(laplacian.transpose()) * inverse_area.asDiagonal() * laplacian +
-      kTension * laplacian;
-  std::vector<Eigen::Triplet<double>> free_entries;
+      area.unaryExpr([](double a) { return a > 0 ? 1 / std::max(a, kLeastArea_mm2) : 0; });
+  const Eigen::SparseMatrix<double> transposed = laplacian.transpose();
+  return transposed * inverse_area.asDiagonal() * laplacian + kTension * laplacian;
+}
+
+// Gives every vertex of the domain that has no value the one of least energy, within 0 and 1.
+void FillSmoothly(const HalfMesh& half, const std::vector<bool>& in_domain,
+                  std::vector<std::optional<double>>& values) {
+  const Eigen::SparseMatrix<double> plate = PlateMatrix(half, in_domain);
+  std::vector<int> unknown(values.size(), -1);
+  int size = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (in_domain[i] && !values[i]) unknown[i] = size++;
+  std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
-  for (int column = 0; column < num_values; ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(bending, column); it; ++it) {
-      const int row = unknown[it.row()];
+  for (int column = 0; column < plate.cols(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(plate, column); entry; ++entry) {
+      const int row = unknown[entry.row()];
       if (row < 0) continue;
       if (unknown[column] >= 0)
-        free_entries.emplace_back(row, unknown[column], it.value());
+        entries.emplace_back(row, unknown[column], entry.value());
       else if (values[column])
-        right[row] -= it.value() * *values[column];
+        right[row] -= entry.value() * *values[column];
     }
   Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(free_entries.begin(), free_entries.end());
+  matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
   ARTICAP_CHECK(solver.info() == Eigen::Success);
   const Eigen::VectorXd solution = solver.solve(right);
@@ -212,11 +219,14 @@ std::vector<double> LipWeights(const LipWeightSpec& spec, const LipDistances& di
   const std::vector<int>& border = skin.mouth_rings[skin.border_ring];
   for (int k = 0; k < skin.num_mouth_columns(); ++k) on_layout[border[k]] = at_column(k);
   distances.Smooth(on_layout);
+  // Smoothing has spread crumbs; what is not moved shall be still.
+  constexpr double kCrumb = 0.002;
+  for (double& weight : on_layout) weight = std::max(weight - kCrumb, 0.0) / (1 - kCrumb);
 
   std::vector<double> weights(half.vertices.size(), 0);
   std::copy(on_layout.begin(), on_layout.end(), weights.begin());
   const int num_rings = static_cast<int>(skin.mouth_rings.size());
-  for (int ring = skin.border_ring + 1; ring < num_rings; ++ring) {
+  for (int ring = skin.border_ring; ring < num_rings; ++ring) {
     const double decay = ring <= skin.seam_ring ? 1 : kBagDecay[ring - skin.seam_ring - 1];
     for (int k = 0; k < skin.num_mouth_columns(); ++k)
       weights[skin.mouth_rings[ring][k]] = decay * at_column(k);
@@ -246,7 +256,7 @@ std::vector<double> JawWeights(const HalfMesh& half, const Skin& skin) {
       values[vertex] = seam + hang * (0.4 - seam);
     }
   }
-  FillHarmonic(half, in_domain, values);
+  FillSmoothly(half, in_domain, values);
   std::vector<double> weights(half.vertices.size());
   for (std::size_t i = 0; i < weights.size(); ++i)
     weights[i] = values[i] ? *values[i] : CarriedJawWeight(half.vertices[i]);

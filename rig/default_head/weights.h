@@ -41,7 +41,7 @@ std::vector<double> LipWeights(const LipWeightSpec& spec, const LipDistances& di
                                const HalfMesh& half, const Skin& skin);
 
 // How far each vertex goes with the mandible: 1 on chin and lower lip, 0.5 at the corners of the
-// mouth, 0 above the cheekbones and on the neck, a harmonic function between them.
+// mouth, 0 above the cheekbones and low on the neck, smooth along the surface between them.
 std::vector<double> JawWeights(const HalfMesh& half, const Skin& skin);
 
 }  // namespace articap::default_head
