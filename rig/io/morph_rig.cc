@@ -229,6 +229,9 @@ class MorphRigBuilder {
                                                               : 0);
     }
     SmoothWeights(jaw.smoothing_rounds, is_free, map.weights);
+    // What is left of the smoothing's tail moves nothing that could be seen.
+    for (double& weight : map.weights)
+      if (weight < 1e-3) weight = 0;
     map.weights.push_back(0);  // of the pivot
     JawJoint joint;
     joint.weight_map = 0;

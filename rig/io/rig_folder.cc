@@ -200,8 +200,9 @@ Result<FaceRig> ParseRig(const RigFiles& files, const std::string& source) {
   if (!obj) return tl::unexpected(obj.error());
   RigDefinition& definition = toml->definition;
   const std::size_t most = std::numeric_limits<std::uint8_t>::max() + 1;
-  if (definition.part_names.size() > most || definition.region_names.size() > most)
-    return Fail(fmt::format("{}: more than {} parts or regions", source, most));
+  if (definition.part_names.size() > most || definition.region_names.size() > most ||
+      definition.weight_maps.size() > most)
+    return Fail(fmt::format("{}: more than {} parts, regions or weight maps", source, most));
   auto taken = TakeMesh(*obj, source + "/" + kMesh, definition);
   if (taken) taken = TakeTables(files, source, definition);
   if (!taken) return tl::unexpected(taken.error());
