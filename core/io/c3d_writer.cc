@@ -20,29 +20,11 @@ namespace {
 constexpr int kMost16Bit = 65535;
 constexpr int kMostResidualSteps = 255;
 
-// The step that residuals are rounded to: the source's own where it reaches far enough, else the
-// smallest power of two that does. Powers of two make the choice stable: the rounded residuals lead
-// to the same step again.
-float ChooseResidualStep(const MarkerRecording& recording) {
-  constexpr float kFinest = 1.F / 1024;
-  float largest = 0;
-  for (const float residual : recording.residuals_mm)
-    if (std::isfinite(residual)) largest = std::max(largest, residual);
-  const auto reaches = [&](float step) {
-    return std::isfinite(step) && step > 1e-9F && largest <= kMostResidualSteps * step * 1.0001F;
-  };
-  if (!recording.residuals_mm.empty() && reaches(recording.residual_step_mm))
-    return recording.residual_step_mm;
-  float step = kFinest;
-  while (step < 1e6F && !reaches(step)) step *= 2;
-  return step;
-}
-
 // What the fourth word of a point says of it.
 class StatusWords {
  public:
   explicit StatusWords(const MarkerRecording& recording)
-      : recording_(recording), step_mm_(ChooseResidualStep(recording)) {
+      : recording_(recording), step_mm_(C3dResidualStep(recording)) {
     for (int frame = 0; frame < recording.tracks.num_frames() && !has_filled_; ++frame)
       for (const SampleState state : recording.tracks.states(frame))
         has_filled_ |= state == SampleState::kFilled;
@@ -128,11 +110,13 @@ void WriteTrialGroups(const MarkerRecording& recording, bool mark_states_only,
     writer.AddWords("ACTUAL_START_FIELD", SplitWords(frames.first), {2});
     writer.AddWords("ACTUAL_END_FIELD", SplitWords(frames.last), {2});
   }
-  if (!recording.subject.empty()) {
+  std::vector<std::string> ignored_warnings;
+  const std::string subject = NameMarkers(LabelsToWrite(recording), ignored_warnings).subject;
+  if (!subject.empty()) {
     writer.BeginGroup("SUBJECTS");
     writer.Add("USED", 1);
-    writer.AddTextList("NAMES", {CleanText(recording.subject)});
-    writer.AddTextList("LABEL_PREFIXES", {CleanText(recording.subject, 250) + ":"});
+    writer.AddTextList("NAMES", {subject});
+    writer.AddTextList("LABEL_PREFIXES", {subject + ":"});
   }
   writer.BeginGroup("MANUFACTURER");
   writer.Add("COMPANY", "articap");
@@ -248,6 +232,24 @@ void WriteData(const MarkerRecording& recording, const StatusWords& status, C3dO
 }
 
 }  // namespace
+
+// The step that residuals are rounded to: the source's own where it reaches far enough, else the
+// smallest power of two that does. Powers of two make the choice stable: the rounded residuals lead
+// to the same step again.
+float C3dResidualStep(const MarkerRecording& recording) {
+  constexpr float kFinest = 1.F / 1024;
+  float largest = 0;
+  for (const float residual : recording.residuals_mm)
+    if (std::isfinite(residual)) largest = std::max(largest, residual);
+  const auto reaches = [&](float step) {
+    return std::isfinite(step) && step > 1e-9F && largest <= kMostResidualSteps * step * 1.0001F;
+  };
+  if (!recording.residuals_mm.empty() && reaches(recording.residual_step_mm))
+    return recording.residual_step_mm;
+  float step = kFinest;
+  while (step < 1e6F && !reaches(step)) step *= 2;
+  return step;
+}
 
 std::string WriteC3d(const MarkerRecording& recording) {
   const StatusWords status(recording);

@@ -13,6 +13,8 @@ namespace articap {
 Result<MarkerRecording> ReadC3d(std::span<const std::byte> bytes, const std::string& source_name,
                                 const MarkerReadOptions& options);
 std::string WriteC3d(const MarkerRecording& recording);
+// What WriteC3d() rounds residuals to, in mm.
+float C3dResidualStep(const MarkerRecording& recording);
 
 using TextReader = Result<MarkerRecording>(std::string_view text, const std::string& source_name,
                                            const MarkerReadOptions& options);

@@ -98,7 +98,8 @@ Result<MarkerRecording> ParseMarkers(std::span<const std::byte> bytes,
                                      const std::string& source_name,
                                      const MarkerReadOptions& options) {
   const std::string_view text = AsText(bytes);
-  if (Trim(text).empty()) return Fail(fmt::format("{}: the file is empty", source_name));
+  if (text.find_first_not_of(std::string_view(" \t\r\n\0", 5)) == std::string_view::npos)
+    return Fail(fmt::format("{}: the file is empty", source_name));
   if (LooksLikeC3d(bytes)) return ReadC3d(bytes, source_name, options);
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     return Fail(fmt::format("{}: the text is UTF-16; save it as UTF-8", source_name));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/io/c3d_layout.h"
+#include "core/io/formats.h"
 #include "core/io/marker_names.h"
 #include "core/io/timing.h"
 #include "core/marker_io.h"
@@ -65,8 +67,7 @@ void AddSampleLosses(const MarkerRecording& recording, MarkerFormat format,
 
 void AddC3dLosses(const MarkerRecording& recording, std::vector<std::string>& losses) {
   const StageTracks& tracks = recording.tracks;
-  if (static_cast<double>(static_cast<float>(tracks.rate_hz())) != tracks.rate_hz() &&
-      std::abs(static_cast<float>(tracks.rate_hz()) / tracks.rate_hz() - 1) > 1e-8)
+  if (DecimalOf(static_cast<float>(tracks.rate_hz())) != tracks.rate_hz())
     losses.push_back(
         fmt::format("The rate of {} Hz is rounded to seven digits.", tracks.rate_hz()));
   if (tracks.first_frame() < 0)
@@ -75,12 +76,15 @@ void AddC3dLosses(const MarkerRecording& recording, std::vector<std::string>& lo
       std::any_of(recording.camera_masks.begin(), recording.camera_masks.end(),
                   [](std::uint8_t mask) { return mask > 0x7F; });
   if (has_wide_masks) losses.push_back("The eighth camera's bits are not kept.");
-  float largest = 0;
+  const float step_mm = C3dResidualStep(recording);
+  float rounding_mm = 0;
   for (const float residual : recording.residuals_mm)
-    if (std::isfinite(residual)) largest = std::max(largest, residual);
-  if (largest > 0 &&
-      !(recording.residual_step_mm > 0 && largest <= 255.1F * recording.residual_step_mm))
-    losses.push_back("The residuals are rounded to one of 255 steps.");
+    if (std::isfinite(residual))
+      rounding_mm = std::max(
+          rounding_mm,
+          std::abs(std::clamp(std::round(residual / step_mm), 0.F, 255.F) * step_mm - residual));
+  if (rounding_mm > 1e-6F)
+    losses.push_back(fmt::format("The residuals are rounded to multiples of {:.4g} mm.", step_mm));
 }
 
 void AddTextLosses(const MarkerRecording& recording, MarkerFormat format,

@@ -284,7 +284,11 @@ void AppendSample(const StageTracks& tracks, int frame, int marker, char delimit
 }
 
 void AppendRows(const StageTracks& tracks, const RowStyle& style, std::string& out) {
+  // Times are computed from the rate alone where they can be, not added to a rounded start.
   const SessionTime start = SnapStart(tracks.start(), tracks.first_frame(), tracks.rate_hz());
+  const bool is_nominal = start == NominalStart(tracks.first_frame(), tracks.rate_hz());
+  const int frames_before = is_nominal ? std::max(tracks.first_frame(), 1) - 1 : 0;
+  const double origin_s = is_nominal ? 0 : SecondsOf(start);
   out.reserve(out.size() + static_cast<std::size_t>(tracks.num_frames()) *
                                (24 + 30 * static_cast<std::size_t>(tracks.num_markers())));
   for (int frame = 0; frame < tracks.num_frames(); ++frame) {
@@ -293,7 +297,7 @@ void AppendRows(const StageTracks& tracks, const RowStyle& style, std::string& o
     if (style.with_sub_frame) (out += style.delimiter) += '0';
     if (style.with_time) {
       if (style.with_frame) out += style.delimiter;
-      AppendSeconds(SecondsOf(TimeOfFrame(frame, tracks.rate_hz(), start)), out);
+      AppendSeconds(origin_s + (double(frames_before) + frame) / tracks.rate_hz(), out);
     }
     for (int marker = 0; marker < tracks.num_markers(); ++marker)
       AppendSample(tracks, frame, marker, style.delimiter, out);

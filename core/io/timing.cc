@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/io/text.h"
+
 namespace articap {
 namespace {
 
@@ -75,35 +77,71 @@ void WarnOfJitter(const TimingClues& clues, const std::vector<double>& steps, do
         1000 * worst_s));
 }
 
+// The rate with the fewest digits that explains the printed times of all rows to their last digit:
+// 60, not 60.0000012. Nothing where no constant rate does. `frames_before_first` counts from time
+// 0; without it, time counts from the first row's, which is then taken as exact.
+std::optional<double> SimplestRate(const TimingClues& clues, const std::vector<double>& steps,
+                                   std::optional<double> frames_before_first) {
+  const double half_digit_s = 0.5 * std::pow(10.0, -clues.time_decimals) + 1e-12;
+  const double origin_s = frames_before_first ? 0 : clues.times_s[0];
+  double slowest_hz = 0;
+  double fastest_hz = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double frames = steps[i] + frames_before_first.value_or(0);
+    const double elapsed_s = clues.times_s[i] - origin_s;
+    if (frames == 0 && std::abs(elapsed_s) <= half_digit_s) continue;
+    if (elapsed_s + half_digit_s <= 0) return std::nullopt;
+    slowest_hz = std::max(slowest_hz, frames / (elapsed_s + half_digit_s));
+    if (elapsed_s > half_digit_s)
+      fastest_hz = std::min(fastest_hz, frames / (elapsed_s - half_digit_s));
+  }
+  if (slowest_hz > fastest_hz || !IsUsableRate(0.5 * (slowest_hz + fastest_hz)))
+    return std::nullopt;
+  for (int digits = 1; digits <= 17; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", 0.5 * (slowest_hz + fastest_hz), digits);
+    const double rate_hz = ParseNumber(text).value_or(0);
+    if (rate_hz >= slowest_hz && rate_hz <= fastest_hz) return rate_hz;
+  }
+  return std::nullopt;
+}
+
+// The rate that the time column tells. `steps` become whole frames since the first row.
+double RateOfTimes(const TimingClues& clues, std::vector<double>& steps,
+                   std::vector<std::string>& warnings) {
+  steps = StepsOfTimes(clues.times_s);
+  std::optional<double> frames_before;
+  if (!clues.frame_numbers.empty()) frames_before = std::max(clues.frame_numbers[0], 1.0) - 1;
+  if (frames_before)
+    if (const auto rate_hz = SimplestRate(clues, steps, frames_before)) return *rate_hz;
+  if (const auto rate_hz = SimplestRate(clues, steps, std::nullopt)) return *rate_hz;
+  const double rate_hz = steps.back() / (clues.times_s.back() - clues.times_s.front());
+  WarnOfJitter(clues, steps, rate_hz, warnings);
+  return rate_hz;
+}
+
+Result<double> FollowTimes(const TimingClues& clues, const std::string& source_name,
+                           std::vector<double>& steps, std::vector<std::string>& warnings) {
+  const double rate_hz = RateOfTimes(clues, steps, warnings);
+  if (clues.rate_hz && IsUsableRate(*clues.rate_hz) && TimesAgree(clues, steps, *clues.rate_hz))
+    return *clues.rate_hz;  // and the frame numbers are wrong
+  if (!IsUsableRate(rate_hz))
+    return Fail(fmt::format(
+        "{}: the time column gives a rate of {:g} frames a second; times must be in seconds",
+        source_name, rate_hz));
+  if (clues.rate_hz)
+    warnings.push_back(fmt::format(
+        "The header says {} frames a second, the time column {:.6g}; the time column was followed.",
+        *clues.rate_hz, rate_hz));
+  return rate_hz;
+}
+
 // The rate, and the frames since the first row, which may change when the times say so.
 Result<double> ResolveRate(const TimingClues& clues, const MarkerReadOptions& options,
                            const std::string& source_name, std::vector<double>& steps,
                            std::vector<std::string>& warnings) {
   const bool has_header_rate = clues.rate_hz && IsUsableRate(*clues.rate_hz);
   if (clues.times_s.size() >= 2 && !(has_header_rate && TimesAgree(clues, steps, *clues.rate_hz))) {
-    if (IsIncreasing(clues.times_s)) {
-      steps = StepsOfTimes(clues.times_s);
-      double rate_hz = steps.back() / (clues.times_s.back() - clues.times_s.front());
-      if (has_header_rate && TimesAgree(clues, steps, *clues.rate_hz)) {
-        rate_hz = *clues.rate_hz;
-      } else {
-        // Digits beyond the times' own are noise: 60, not 60.00000012.
-        const double rounded = std::round(rate_hz * 1000) / 1000;
-        if (TimesAgree(clues, steps, rounded)) rate_hz = rounded;
-        if (clues.rate_hz)
-          warnings.push_back(fmt::format(
-              "The header says {} frames a second, the time column {:.6g}; the time column was "
-              "followed.",
-              *clues.rate_hz, rate_hz));
-      }
-      if (!IsUsableRate(rate_hz))
-        return Fail(
-            fmt::format("{}: the time column gives a rate of {:g} frames a second; times "
-                        "must be in seconds",
-                        source_name, rate_hz));
-      WarnOfJitter(clues, steps, rate_hz, warnings);
-      return rate_hz;
-    }
+    if (IsIncreasing(clues.times_s)) return FollowTimes(clues, source_name, steps, warnings);
     warnings.push_back("The times do not increase; the time column was ignored.");
   }
   if (has_header_rate) return *clues.rate_hz;
@@ -118,6 +156,10 @@ Result<double> ResolveRate(const TimingClues& clues, const MarkerReadOptions& op
         fmt::format("{}: the header says {} frames a second and there is no time column to "
                     "tell better; give the rate with --rate-hz 100",
                     source_name, *clues.rate_hz));
+  if (steps.size() < 2) {
+    warnings.push_back("A single frame tells no rate; 1 Hz was assumed.");
+    return 1;
+  }
   return Fail(
       fmt::format("{}: the file holds neither a rate nor times; give the rate with --rate-hz 100",
                   source_name));

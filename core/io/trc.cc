@@ -152,8 +152,8 @@ std::string WriteTrc(const MarkerRecording& recording) {
       "OrigNumFrames\n"
       "{}\t{}\t{}\t{}\tmm\t{}\t{}\t{}\n"
       "Frame#\tTime",
-      rate, rate, tracks.num_frames(), tracks.num_markers(), rate, tracks.first_frame(),
-      tracks.num_frames());
+      rate, rate, tracks.num_frames(), tracks.num_markers(), rate,
+      tracks.num_frames() > 0 ? tracks.first_frame() : 1, tracks.num_frames());
   const char* gap = "\t";
   for (const std::string& label : LabelsToWrite(recording)) {
     out += gap + QuoteCell(label, '\t');
