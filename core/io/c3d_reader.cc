@@ -37,12 +37,10 @@ struct PointSample {
 
 PointSample DecodePoint(const C3dBytes& bytes, const C3dLayout& layout, std::size_t at) {
   if (!layout.is_float) {
-    // Rounded to a float, as the same trial stored in floats would be.
-    const auto scaled = [&](std::size_t offset) {
-      return static_cast<float>(layout.scale * bytes.I16(offset));
-    };
-    return {Eigen::Vector3d(scaled(at), scaled(at + 2), scaled(at + 4)),
-            DecodeStatus(bytes.I16(at + 6))};
+    // In floats, so that the result is what the same trial stored in floats holds.
+    const auto scale = static_cast<float>(layout.scale);
+    const Eigen::Vector3f steps(bytes.I16(at), bytes.I16(at + 2), bytes.I16(at + 4));
+    return {(scale * steps).cast<double>(), DecodeStatus(bytes.I16(at + 6))};
   }
   const float word = bytes.F32(at + 12);
   // Cast to an integer first, as the format demands; what no 16-bit word can be is no status.
