@@ -49,6 +49,35 @@ PairMoments MomentsOf(Points source, Points target, Weights weights) {
   return moments;
 }
 
+// Weighted moments of one set of points about their centroid; all zero where nothing has weight.
+struct Moments {
+  int num_points = 0;
+  double total_weight = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+};
+
+Moments ScatterOf(Points points, Weights weights) {
+  ARTICAP_CHECK(weights.empty() || weights.size() == points.size());
+  Moments moments;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double weight = WeightAt(weights, i);
+    if (!(weight > 0)) continue;
+    ++moments.num_points;
+    moments.total_weight += weight;
+    moments.mean += weight * points[i];
+  }
+  if (moments.num_points == 0) return moments;
+  moments.mean /= moments.total_weight;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double weight = WeightAt(weights, i);
+    if (!(weight > 0)) continue;
+    const Eigen::Vector3d from_mean = points[i] - moments.mean;
+    moments.scatter += weight * from_mean * from_mean.transpose();
+  }
+  return moments;
+}
+
 template <class Transform>
 double WeightedRms(const Transform& target_from_source, Points source, Points target,
                    Weights weights) {
@@ -114,26 +143,21 @@ double PointSpread::PlacementSigma(const Eigen::Vector3d& point) const {
   return std::sqrt(variance);
 }
 
+double WorstRotationSigma(Points points, Weights weights) {
+  const Moments moments = ScatterOf(points, weights);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(moments.scatter, Eigen::EigenvaluesOnly);
+  const double information = solver.eigenvalues()[0] + solver.eigenvalues()[1];
+  return information > 0 ? 1 / std::sqrt(information) : std::numeric_limits<double>::infinity();
+}
+
 PointSpread SpreadOf(Points points, Weights weights) {
-  ARTICAP_CHECK(weights.empty() || weights.size() == points.size());
+  const Moments moments = ScatterOf(points, weights);
   PointSpread spread;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double weight = WeightAt(weights, i);
-    if (!(weight > 0)) continue;
-    ++spread.num_points;
-    spread.total_weight += weight;
-    spread.centroid += weight * points[i];
-  }
-  if (spread.num_points == 0) return spread;
-  spread.centroid /= spread.total_weight;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double weight = WeightAt(weights, i);
-    if (!(weight > 0)) continue;
-    const Eigen::Vector3d from_centroid = points[i] - spread.centroid;
-    scatter += weight * from_centroid * from_centroid.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  spread.num_points = moments.num_points;
+  spread.total_weight = moments.total_weight;
+  spread.centroid = moments.mean;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments.scatter);
   spread.scatter = solver.eigenvalues().reverse().cwiseMax(0);
   spread.axes = solver.eigenvectors().rowwise().reverse();
   return spread;

@@ -45,6 +45,9 @@ struct PointSpread {
   // by that alignment, same unit as the points: least at the centroid, growing with distance.
   double PlacementSigma(const Eigen::Vector3d& point) const;
 };
+// The same figure without the rest, for inner loops. Empty weights count as ones.
+double WorstRotationSigma(std::span<const Eigen::Vector3d> points,
+                          std::span<const double> weights = {});
 PointSpread SpreadOf(std::span<const Eigen::Vector3d> points, std::span<const double> weights = {});
 
 // Weighted root mean square of |target_i - T source_i|.

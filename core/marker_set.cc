@@ -243,6 +243,12 @@ std::string WriteMarker(const MarkerRole& marker) {
 
 }  // namespace
 
+std::string_view RegionOf(const MarkerRole& role) {
+  if (!role.region.empty()) return role.region;
+  const LandmarkInfo* landmark = FindLandmark(role.landmark);
+  return landmark ? landmark->region : std::string_view();
+}
+
 const MarkerRole* MarkerSet::Find(std::string_view marker_name) const {
   const auto found = std::ranges::find(markers, marker_name, &MarkerRole::name);
   return found == markers.end() ? nullptr : &*found;

@@ -25,6 +25,9 @@ struct MarkerRole {
   double offset_mm = 0;  // height of the marker's centre above the skin, where known
 };
 
+// The marker's region, or its landmark's where it names none; empty where neither is known.
+std::string_view RegionOf(const MarkerRole& role);
+
 // The axes of data whose head axes cannot be found from landmarks, e.g. an articulograph's: unit
 // vectors of the stage frame.
 struct DeclaredAxes {

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/stabilize_setup.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace articap {
+namespace {
+
+Result<void> CheckOptions(const StabilizeOptions& options) {
+  const std::pair<const char*, double> positive[] = {
+      {"max_rotation_sigma_deg", options.max_rotation_sigma_deg},
+      {"max_residual_mm", options.max_residual_mm},
+      {"outlier_sigmas", options.outlier_sigmas},
+      {"shape_tolerance_mm", options.shape_tolerance_mm},
+      {"max_reference_motion_mm", options.max_reference_motion_mm}};
+  for (const auto& [name, value] : positive)
+    if (!(value > 0)) return Fail(fmt::format("{} is {}; it must be positive", name, value));
+  if (options.shape_frames < 2)
+    return Fail(fmt::format("shape_frames is {}; it must be at least 2", options.shape_frames));
+  return {};
+}
+
+Result<std::optional<DeclaredAxes>> ResolveAxes(const MarkerSet& set,
+                                                const StabilizeOptions& options) {
+  const std::string* const texts[] = {&options.left, &options.up, &options.forward};
+  const auto num_given = std::ranges::count_if(texts, [](auto* text) { return !text->empty(); });
+  if (num_given == 0) return set.axes;
+  if (num_given != 3)
+    return Fail("of the axes left, up and forward only some are given; give all three");
+  Eigen::Vector3d axes[3];
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = ParseAxis(*texts[i]);
+    if (!axis) return tl::unexpected(axis.error());
+    axes[i] = *axis;
+  }
+  const auto declared = MakeDeclaredAxes(axes[0], axes[1], axes[2]);
+  if (!declared) return tl::unexpected(declared.error());
+  return *declared;
+}
+
+StabilizationMode ResolveMode(const MarkerSet& set, ModeChoice choice) {
+  switch (choice) {
+    case ModeChoice::kFromMap:
+      return set.mode;
+    case ModeChoice::kRigid:
+      return StabilizationMode::kRigid;
+    case ModeChoice::kTranslation:
+      return StabilizationMode::kTranslation;
+    case ModeChoice::kNone:
+      return StabilizationMode::kNone;
+  }
+  return set.mode;
+}
+
+// By the options, else by the map, else all points of a given shape.
+std::vector<std::string> ReferenceNames(const MarkerSet& set,
+                                        const std::optional<HeadShape>& given_shape,
+                                        const StabilizeOptions& options) {
+  if (!options.head.empty()) return options.head;
+  std::vector<std::string> names;
+  for (const MarkerRole& marker : set.markers)
+    if (marker.head_reference) names.push_back(marker.name);
+  if (names.empty() && given_shape)
+    for (const NamedPoint& point : given_shape->points) names.push_back(point.name);
+  return names;
+}
+
+Result<void> FindReferences(const StageTracks& tracks, const std::vector<std::string>& names,
+                            bool is_asked_for, StabilizeSetup& setup) {
+  for (const std::string& name : names) {
+    const auto column = tracks.Find(name);
+    if (!column && is_asked_for)
+      return Fail(fmt::format("there is no marker '{}' to take as a reference; the take has {}",
+                              name, fmt::join(tracks.names(), ", ")));
+    if (!column) {
+      setup.warnings.push_back(
+          fmt::format("the reference '{}' of the map is not in the take", name));
+      continue;
+    }
+    if (std::ranges::find(setup.references, *column) != setup.references.end())
+      return Fail(fmt::format("the reference '{}' is named twice", name));
+    setup.references.push_back(*column);
+  }
+  return {};
+}
+
+Result<void> CheckCount(const StageTracks& tracks, const StabilizeSetup& setup) {
+  const std::size_t count = setup.references.size();
+  if (setup.mode == StabilizationMode::kRigid && count < 3)
+    return Fail(fmt::format(
+        "the mode rigid needs three references or more, and has {}; name them with --head, or with "
+        "the role head in the marker map. The take has {}",
+        count, fmt::join(tracks.names(), ", ")));
+  if (setup.mode == StabilizationMode::kTranslation && count != 1)
+    return Fail(fmt::format(
+        "the mode translation takes exactly one reference, e.g. the nose, and has {}; name it with "
+        "--head, or with the role head in the marker map. The take has {}",
+        count, fmt::join(tracks.names(), ", ")));
+  return {};
+}
+
+}  // namespace
+
+Result<StabilizeSetup> ResolveSetup(const StageTracks& tracks, const MarkerSet& set,
+                                    const std::optional<HeadShape>& given_shape,
+                                    const StabilizeOptions& options) {
+  if (auto valid = CheckOptions(options); !valid) return tl::unexpected(valid.error());
+  const auto axes = ResolveAxes(set, options);
+  if (!axes) return tl::unexpected(axes.error());
+  if (tracks.num_frames() == 0)
+    return Fail("the take has no frames: there is nothing to stabilise");
+  StabilizeSetup setup;
+  setup.axes = *axes;
+  setup.mode = ResolveMode(set, options.mode);
+  if (setup.mode == StabilizationMode::kNone) return setup;
+  if (auto found = FindReferences(tracks, ReferenceNames(set, given_shape, options),
+                                  !options.head.empty(), setup);
+      !found)
+    return tl::unexpected(found.error());
+  if (auto enough = CheckCount(tracks, setup); !enough) return tl::unexpected(enough.error());
+  return setup;
+}
+
+StageReport StartReport(const StabilizeSetup& setup, const StabilizeOptions& options) {
+  StageReport report;
+  report.stage = "stabilize";
+  report.warnings = setup.warnings;
+  report.options = EchoOptions(options);
+  return report;
+}
+
+}  // namespace articap
