@@ -212,11 +212,14 @@ std::vector<double> LipWeights(const LipWeightSpec& spec, const LipDistances& di
   const std::vector<int>& border = skin.mouth_rings[skin.border_ring];
   for (int k = 0; k < skin.num_mouth_columns(); ++k) on_layout[border[k]] = at_column(k);
   distances.Smooth(on_layout);
+  // Smoothing has spread crumbs; what is not moved shall be still.
+  constexpr double kCrumb = 0.002;
+  for (double& weight : on_layout) weight = std::max(weight - kCrumb, 0.0) / (1 - kCrumb);
 
   std::vector<double> weights(half.vertices.size(), 0);
   std::copy(on_layout.begin(), on_layout.end(), weights.begin());
   const int num_rings = static_cast<int>(skin.mouth_rings.size());
-  for (int ring = skin.border_ring + 1; ring < num_rings; ++ring) {
+  for (int ring = skin.border_ring; ring < num_rings; ++ring) {
     const double decay = ring <= skin.seam_ring ? 1 : kBagDecay[ring - skin.seam_ring - 1];
     for (int k = 0; k < skin.num_mouth_columns(); ++k)
       weights[skin.mouth_rings[ring][k]] = decay * at_column(k);
