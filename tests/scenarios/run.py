@@ -16,7 +16,8 @@ A scenario is a file of
     edits = [{scale = 100}]
 
     [[step]]
-    run = ["convert", "take.csv", "out.trc"]     # arguments of articap
+    run = ["convert", "take.csv", "out.trc"]     # arguments of articap; {root} is the source tree,
+                                        # {data} the folder of real data
     exit_code = 1                       # default 0
     stdout = ["every text that must appear"]
     stderr = ["take.csv:3:"]
@@ -98,7 +99,9 @@ def check_keys(path, keys):
 
 def run_step(articap, step, folder):
     before = files_in(folder)
-    result = subprocess.run([articap, *step["run"]], cwd=folder, capture_output=True,
+    arguments = [argument.replace("{root}", str(ROOT)).replace("{data}", str(test_data()))
+                 for argument in step["run"]]
+    result = subprocess.run([articap, *arguments], cwd=folder, capture_output=True,
                             timeout=TIMEOUT_S)
     stdout = result.stdout.decode(errors="replace")
     stderr = result.stderr.decode(errors="replace")
