@@ -201,8 +201,8 @@ export class PlotRow {
     const number = a === b || !Number.isFinite(a) ? formatFixed(a, this.decimals)
                                                   : `${formatFixed(a, this.decimals)} … ${formatFixed(b, this.decimals)}`;
     if (name)
-      return element('div', {class: 'key'}, element('i', {style: `background:var(${color})`}), name,
-                     withUnit(number, this.unit));
+      return element('div', {class: 'key'}, element('i', {style: `background:var(${color})`}),
+                     element('span', {}, name), element('span', {}, withUnit(number, this.unit)));
     const value = element('span', {}, element('b', {}, withUnit(number, this.unit)));
     if (!sigma || !Number.isFinite(a)) return value;
     value.append(Number.isFinite(sigma[point]) ? ` ± ${formatFixed(sigma[point], Math.max(this.decimals, 2))}`

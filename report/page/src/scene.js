@@ -14,7 +14,7 @@ import {element, formatFixed} from './text.js';
 
 const kMeasuredColor = 0xffffff;
 const kVirtualColor = 0xff7a1a;
-const kMarkerRadius_mm = 1.7;
+const kMarkerRadius_mm = 2.1;
 const kInnerParts = ['teeth', 'tongue', 'eyes', 'mouth'];
 
 /** Balls at given places; those behind the skin shine through faintly. */
