@@ -182,10 +182,11 @@ export class PlotRow {
     this.now.hidden = !(x >= 0 && x <= width);
     this.now.style.transform = `translateX(${x}px)`;
     const {window} = this.clock;
-    const isWhole = !window || window.count >= this.clock.take.num_frames;
-    this.inWindow.hidden = isWhole;
-    if (isWhole) return;
-    const [begin, end] = this.clock.windowView().map((time) => Math.max(0, Math.min(width, at(time))));
+    const [first, last] = window ? this.clock.windowView() : this.clock.wholeView();
+    const isAllOfView = first <= this.clock.view[0] && last >= this.clock.view[1];
+    this.inWindow.hidden = isAllOfView;
+    if (isAllOfView) return;
+    const [begin, end] = [first, last].map((time) => Math.max(0, Math.min(width, at(time))));
     this.inWindow.style.left = `${begin}px`;
     this.inWindow.style.width = `${end - begin}px`;
   }
