@@ -34,15 +34,24 @@ Json SeriesData(std::span<const double> values, int frames_per_point) {
   return series;
 }
 
-// Runs of equal values: [first frame, value, first frame, value, ...].
-template <class Items, class CodeOf>
-Json RunsOf(const Items& items, const CodeOf& code_of) {
+// Runs of equal codes: [first frame, code, first frame, code, ...]. Where there would be too many
+// for the page, one code stands for every few frames: the largest of them.
+Json RunsOf(const std::vector<int>& codes) {
+  constexpr std::size_t kMostRuns = 60'000;
+  std::size_t num_runs = codes.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < codes.size(); ++i) num_runs += codes[i] != codes[i - 1];
+  const std::size_t step = num_runs <= kMostRuns ? 1 : (codes.size() + kMostRuns - 1) / kMostRuns;
   Json runs = Json::array();
-  for (std::size_t i = 0; i < items.size(); ++i)
-    if (i == 0 || items[i] != items[i - 1]) {
-      runs.push_back(i);
-      runs.push_back(code_of(items[i]));
-    }
+  int before = -1;
+  for (std::size_t i = 0; i < codes.size(); i += step) {
+    const auto begin = codes.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end = begin + static_cast<std::ptrdiff_t>(std::min(step, codes.size() - i));
+    const int code = *std::max_element(begin, end);
+    if (code == before) continue;
+    runs.push_back(i);
+    runs.push_back(code);
+    before = code;
+  }
   return runs;
 }
 
@@ -186,16 +195,17 @@ Json PhoneData(const ParameterTrack& track) {
     code = static_cast<int>(labels.size());
     labels.push_back(label);
   }
-  Json runs = RunsOf(track.phones, [&](const std::string& phone) { return codes.at(phone); });
-  return {{"labels", std::move(labels)}, {"runs", std::move(runs)}};
+  std::vector<int> of_frames;
+  for (const std::string& phone : track.phones) of_frames.push_back(codes.at(phone));
+  return {{"labels", std::move(labels)}, {"runs", RunsOf(of_frames)}};
 }
 
 Json StatusData(const ParameterTrack& track) {
   Json labels = Json::array();
   for (const FitStatus status : kAllFitStatuses) labels.push_back(NameOf(status));
-  Json runs =
-      RunsOf(track.statuses, [](FitStatus status) { return static_cast<int>(status); });
-  return {{"labels", std::move(labels)}, {"runs", std::move(runs)}};
+  std::vector<int> of_frames;
+  for (const FitStatus status : track.statuses) of_frames.push_back(static_cast<int>(status));
+  return {{"labels", std::move(labels)}, {"runs", RunsOf(of_frames)}};
 }
 
 Json ResidualData(const MarkerResiduals& residuals) {

@@ -71,7 +71,7 @@ export class Player {
     if (scene.rig) {
       const opacity = element('input', {type: 'range', min: 0, max: 1, step: 0.05, value: 1, 'aria-label': 'Opacity of the head',
         oninput: () => scene.setOpacity(Number(opacity.value))});
-      box.append(element('label', {}, 'Head', opacity));
+      box.append(element('label', {}, 'Head opacity', opacity));
     }
     return box;
   }

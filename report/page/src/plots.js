@@ -182,10 +182,11 @@ export class PlotRow {
     this.now.hidden = !(x >= 0 && x <= width);
     this.now.style.transform = `translateX(${x}px)`;
     const {window} = this.clock;
-    const isWhole = !window || window.count >= this.clock.take.num_frames;
-    this.inWindow.hidden = isWhole;
-    if (isWhole) return;
-    const [begin, end] = this.clock.windowView().map((time) => Math.max(0, Math.min(width, at(time))));
+    const [first, last] = window ? this.clock.windowView() : this.clock.wholeView();
+    const isAllOfView = first <= this.clock.view[0] && last >= this.clock.view[1];
+    this.inWindow.hidden = isAllOfView;
+    if (isAllOfView) return;
+    const [begin, end] = [first, last].map((time) => Math.max(0, Math.min(width, at(time))));
     this.inWindow.style.left = `${begin}px`;
     this.inWindow.style.width = `${end - begin}px`;
   }
@@ -201,8 +202,8 @@ export class PlotRow {
     const number = a === b || !Number.isFinite(a) ? formatFixed(a, this.decimals)
                                                   : `${formatFixed(a, this.decimals)} … ${formatFixed(b, this.decimals)}`;
     if (name)
-      return element('div', {class: 'key'}, element('i', {style: `background:var(${color})`}), name,
-                     withUnit(number, this.unit));
+      return element('div', {class: 'key'}, element('i', {style: `background:var(${color})`}),
+                     element('span', {}, name), element('span', {}, withUnit(number, this.unit)));
     const value = element('span', {}, element('b', {}, withUnit(number, this.unit)));
     if (!sigma || !Number.isFinite(a)) return value;
     value.append(Number.isFinite(sigma[point]) ? ` ± ${formatFixed(sigma[point], Math.max(this.decimals, 2))}`

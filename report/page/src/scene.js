@@ -14,22 +14,29 @@ import {element, formatFixed} from './text.js';
 
 const kMeasuredColor = 0xffffff;
 const kVirtualColor = 0xff7a1a;
-const kMarkerRadius_mm = 1.7;
+const kMarkerRadius_mm = 2.1;
 const kInnerParts = ['teeth', 'tongue', 'eyes', 'mouth'];
 
-/** Balls at given places; those behind the skin shine through faintly. */
+/**
+ * Balls at given places; those behind the skin shine through faintly. `lift` brings them to the
+ * front by some millimetres, so that a small ball within a larger one is seen as its core.
+ */
 class MarkerCloud {
-  constructor(count, color, radius) {
+  constructor(count, color, radius, lift = 0) {
     this.count = count;
     this.radius = radius;
     this.positions = new Float32Array(3 * count).fill(NaN);
     const ball = new SphereGeometry(1, 20, 14);
     this.mesh = new InstancedMesh(
-        ball, new MeshStandardMaterial({color, roughness: 0.45, emissive: color, emissiveIntensity: 0.25}), count);
+        ball, new MeshStandardMaterial({
+          color, roughness: 0.45, emissive: color, emissiveIntensity: 0.35,
+          polygonOffset: true, polygonOffsetUnits: -500 * lift,
+        }), count);
+    this.mesh.renderOrder = 3 + lift;
     this.ghost = new InstancedMesh(
         ball, new MeshBasicMaterial({color, transparent: true, opacity: 0.22, depthFunc: GreaterDepth, depthWrite: false}),
         count);
-    this.ghost.renderOrder = 5;
+    this.ghost.renderOrder = 8;
     for (const mesh of [this.mesh, this.ghost]) mesh.frustumCulled = false;
   }
 
@@ -143,14 +150,14 @@ export class HeadScene {
   addMarkers() {
     const count = this.markerNames.length;
     this.measuredCloud = new MarkerCloud(count, kMeasuredColor, kMarkerRadius_mm);
-    this.virtualCloud = new MarkerCloud(count, kVirtualColor, 0.85 * kMarkerRadius_mm);
+    this.virtualCloud = new MarkerCloud(count, kVirtualColor, 0.6 * kMarkerRadius_mm, 4);
     this.linePositions = new BufferAttribute(new Float32Array(6 * count), 3);
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', this.linePositions);
     this.lines = new LineSegments(
         geometry, new LineBasicMaterial({color: kVirtualColor, depthTest: false, transparent: true}));
     this.lines.frustumCulled = false;
-    this.lines.renderOrder = 6;
+    this.lines.renderOrder = 9;
     for (const cloud of [this.measuredCloud, this.virtualCloud])
       this.scene.add(cloud.mesh, cloud.ghost);
     this.scene.add(this.lines);

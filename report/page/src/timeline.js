@@ -142,8 +142,9 @@ export class Timeline {
     const {markers} = this.data.residuals;
     const rms = (i) => markers[i].rms_mm ?? -1;
     const order = markers.map((_, i) => i).sort((a, b) => rms(b) - rms(a));
-    // The scale ends where the worst marker's bulk does, so that one outlier does not darken all.
-    const largest_mm = Math.max(0.05, 1.25 * Math.max(...markers.map(({p95_mm}) => p95_mm ?? 0)));
+    // The scale suits the usual marker, so that a bad one does not darken all others.
+    const bulks = markers.map(({p95_mm}) => p95_mm ?? 0).sort((a, b) => a - b);
+    const largest_mm = Math.max(0.05, 2 * bulks[bulks.length >> 1]);
     const strip = new HeatStrip(this.clock, this.data.residuals, order, largest_mm);
     this.strips.push(strip);
     const head = element('tr', {}, ...['marker', 'RMS', 'mean', '95%', 'max'].map((text) => element('th', {}, text)));
