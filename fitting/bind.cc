@@ -131,7 +131,7 @@ std::optional<std::string> FindFault(const std::vector<RolePoint>& points,
 std::vector<LandmarkPoint> LandmarkPoints(const std::vector<RolePoint>& points) {
   std::vector<LandmarkPoint> landmarks;
   for (const RolePoint& point : points)
-    if (point.landmark_vertex && (point.role->strategic || point.role->face))
+    if (point.landmark_vertex && point.role->strategic)
       landmarks.push_back({*point.landmark_vertex, point.point_in_head});
   return landmarks;
 }

@@ -29,9 +29,10 @@ constexpr double kMedianLength = 1.5382;
 // mean (Brown 1983).
 const double kDistanceInefficiency = std::sqrt(3 * M_PI / 8);
 
-// How far refinement may move a marker on the rig, mm: the error of attaching one face to another.
-constexpr double kRefinementPrior_mm = 4;
-constexpr int kRefinementRounds = 4;
+// How far refinement may move a marker on the rig, mm of the rig: one face's error of attachment to
+// another.
+constexpr double kRefinementReach_mm = 20;
+constexpr int kRefinementRounds = 8;
 
 struct FaceMarkers {
   std::vector<VirtualMarker> markers;
@@ -306,10 +307,11 @@ Result<StageResult<ShapeFit>> Fit(const HeadTracks& tracks, const Binding& bindi
   if (options.refine_frames > 0) {
     const std::vector<int> chosen = SpreadFrames(measured.num_frames(), options.refine_frames);
     for (const int frame : chosen) judged[frame] = false;
+    const std::vector<VirtualMarker> bound = face.markers;
     for (int round = 0; round < kRefinementRounds; ++round) {
       const FrameFits fits = fit_frames(face.markers, measured, &determined, false);
-      face.markers = RefineAttachments(*own_rig, face.markers, measured, chosen, fits.parameters,
-                                       scale * kRefinementPrior_mm);
+      face.markers = RefineAttachments(*own_rig, bound, face.markers, measured, chosen,
+                                       fits.parameters, kRefinementReach_mm);
     }
     report.figures.emplace_back("refined_from_frames", static_cast<double>(chosen.size()));
   }
