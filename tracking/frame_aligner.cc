@@ -7,23 +7,26 @@
 
 #include "core/alignment.h"
 #include "core/check.h"
+#include "tracking/rigidity.h"
 
 namespace articap {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Median of the sigmas that the file states for a marker, over at most a thousand frames.
-double TypicalSigma(const StageTracks& tracks, int marker) {
-  std::vector<float> sigmas;
+// Mean square of the sigmas that the file states for a marker, over at most a thousand frames; NaN
+// where it states none.
+double MeanStatedVariance(const StageTracks& tracks, int marker) {
+  double sum = 0;
+  int count = 0;
   const int step = std::max(1, tracks.num_frames() / 1000);
-  for (int frame = 0; frame < tracks.num_frames(); frame += step)
-    if (std::isfinite(tracks.sigma_mm(frame, marker)))
-      sigmas.push_back(tracks.sigma_mm(frame, marker));
-  if (sigmas.empty()) return kNaN;
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  return *middle;
+  for (int frame = 0; frame < tracks.num_frames(); frame += step) {
+    const double sigma_mm = tracks.sigma_mm(frame, marker);
+    if (!std::isfinite(sigma_mm)) continue;
+    sum += sigma_mm * sigma_mm;
+    ++count;
+  }
+  return count > 0 ? sum / count : kNaN;
 }
 
 }  // namespace
@@ -34,8 +37,12 @@ FrameAligner::FrameAligner(const StageTracks& tracks, ReferenceModel model,
   const std::size_t size = model_.columns.size();
   ARTICAP_CHECK_EQ(model_.points_mm.size(), size);
   ARTICAP_CHECK_EQ(model_.sigmas_mm.size(), size);
-  for (const int column : model_.columns)
-    typical_sigmas_mm_.push_back(TypicalSigma(tracks, column));
+  for (int i = 0; i < model_.size(); ++i) {
+    const double stated = MeanStatedVariance(tracks, model_.columns[i]);
+    const double found = model_.sigmas_mm[i] * model_.sigmas_mm[i];
+    stated_scale_.push_back(stated > found ? found / stated : 1.0);
+    unstated_variance_mm2_.push_back(stated < found ? found - stated : 0.0);
+  }
   points_in_stage_mm_.resize(size);
   sample_sigmas_mm_.resize(size);
   weights_.resize(size);
@@ -56,12 +63,12 @@ void FrameAligner::Gather(int frame) {
       residuals_mm_[i] = kNaN;
       continue;
     }
-    // A sample that the file calls worse than is usual for its marker counts for less.
     const double stated = tracks_.sigma_mm(frame, column);
-    const double excess = stated * stated - typical_sigmas_mm_[i] * typical_sigmas_mm_[i];
-    const double variance = model_.sigmas_mm[i] * model_.sigmas_mm[i] + (excess > 0 ? excess : 0.0);
-    sample_sigmas_mm_[i] = std::sqrt(variance);
-    weights_[i] = 1 / variance;
+    const double variance = std::isfinite(stated)
+                                ? stated_scale_[i] * stated * stated + unstated_variance_mm2_[i]
+                                : model_.sigmas_mm[i] * model_.sigmas_mm[i];
+    sample_sigmas_mm_[i] = std::sqrt(std::max(variance, kSmallestSigmaMm * kSmallestSigmaMm));
+    weights_[i] = 1 / (sample_sigmas_mm_[i] * sample_sigmas_mm_[i]);
     robust_weights_[i] = 1;
   }
 }

@@ -66,8 +66,11 @@ class FrameAligner {
   const StageTracks& tracks_;
   ReferenceModel model_;
   AlignerOptions options_;
-  // What the file states as each reference's own sigma, typically; NaN where it states none.
-  std::vector<double> typical_sigmas_mm_;
+  // The sigmas that a file states say which samples are better than others; the data say how large
+  // the whole is. A sample's variance is scale * stated^2 + unstated: what is stated is scaled down
+  // where the data are better, and the skin's share is added where they are worse.
+  std::vector<double> stated_scale_;
+  std::vector<double> unstated_variance_mm2_;
 
   // Of the current frame.
   std::vector<Eigen::Vector3d> points_in_stage_mm_;

@@ -73,9 +73,8 @@ DistanceStatistics MeasureDistances(const StageTracks& tracks, std::span<const i
       const double median_mm = Quantile(distances_mm, 0.5);
       statistics.median_mm(i, j) = statistics.median_mm(j, i) = median_mm;
       if (count < kMinFramesForVariance) continue;
-      constexpr double kSigmasFrom5To95Percent = 3.2897;
-      const double range_mm = Quantile(distances_mm, 0.95) - Quantile(distances_mm, 0.05);
-      const double sigma_mm = range_mm / kSigmasFrom5To95Percent;
+      const double range_mm = Quantile(distances_mm, 0.9) - Quantile(distances_mm, 0.1);
+      const double sigma_mm = range_mm / kSigmasFrom10To90Percent;
       statistics.variance_mm2(i, j) = statistics.variance_mm2(j, i) = sigma_mm * sigma_mm;
     }
   return statistics;
@@ -84,7 +83,8 @@ DistanceStatistics MeasureDistances(const StageTracks& tracks, std::span<const i
 std::vector<double> SigmasOfMembers(const Eigen::MatrixXd& variance_mm2,
                                     std::span<const int> members) {
   const auto size = static_cast<Eigen::Index>(members.size());
-  // Normal equations of var(i, j) = x_i + x_j over the pairs with a variance.
+  // Normal equations of var(i, j) = x_i + x_j over the pairs with a variance, each weighted by its
+  // own precision: the standard error of a variance is proportional to the variance.
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   for (Eigen::Index i = 0; i < size; ++i)
@@ -92,14 +92,15 @@ std::vector<double> SigmasOfMembers(const Eigen::MatrixXd& variance_mm2,
       if (i == j) continue;
       const double variance = variance_mm2(members[i], members[j]);
       if (std::isnan(variance)) continue;
-      normal(i, i) += 1;
-      normal(i, j) += 1;
-      right[i] += variance;
+      const double weight = 1 / std::max(variance * variance, std::pow(kSmallestSigmaMm, 4));
+      normal(i, i) += weight;
+      normal(i, j) += weight;
+      right[i] += weight * variance;
     }
   // Too few pairs leave the system singular; the slight pull to the assumed variance decides then.
-  constexpr double kPull = 1e-6;
-  normal.diagonal().array() += kPull;
-  right.array() += kPull * kAssumedSigmaMm * kAssumedSigmaMm;
+  const double pull = 1e-6 * std::max(normal.trace() / static_cast<double>(size), 1.0);
+  normal.diagonal().array() += pull;
+  right.array() += pull * kAssumedSigmaMm * kAssumedSigmaMm;
   const Eigen::VectorXd variances = normal.ldlt().solve(right);
 
   std::vector<double> sigmas_mm;

@@ -130,7 +130,9 @@ HeadPoseStatus StatusOf(const FrameAlignment& alignment, const StabilizeOptions&
   if (alignment.num_seen < 3) return HeadPoseStatus::kTooFewReferences;
   const double max_sigma_rad = options.max_rotation_sigma_deg * std::numbers::pi / 180;
   if (!(alignment.rotation_sigma_rad <= max_sigma_rad)) return HeadPoseStatus::kIllConditioned;
-  if (alignment.num_used < 3 || alignment.rms_mm > options.max_residual_mm)
+  // Three that are left after others were put aside cannot confirm one another.
+  const bool is_unconfirmed = alignment.num_used <= 3 && alignment.num_used < alignment.num_seen;
+  if (is_unconfirmed || alignment.rms_mm > options.max_residual_mm)
     return HeadPoseStatus::kLargeResidual;
   return HeadPoseStatus::kOk;
 }
