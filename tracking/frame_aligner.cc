@@ -37,17 +37,29 @@ FrameAligner::FrameAligner(const StageTracks& tracks, ReferenceModel model,
   const std::size_t size = model_.columns.size();
   ARTICAP_CHECK_EQ(model_.points_mm.size(), size);
   ARTICAP_CHECK_EQ(model_.sigmas_mm.size(), size);
-  for (int i = 0; i < model_.size(); ++i) {
-    const double stated = MeanStatedVariance(tracks, model_.columns[i]);
-    const double found = model_.sigmas_mm[i] * model_.sigmas_mm[i];
-    stated_scale_.push_back(stated > found ? found / stated : 1.0);
-    unstated_variance_mm2_.push_back(stated < found ? found - stated : 0.0);
-  }
+  for (const int column : model_.columns)
+    mean_stated_variance_mm2_.push_back(MeanStatedVariance(tracks, column));
+  FindUnstatedVariance();
   points_in_stage_mm_.resize(size);
   sample_sigmas_mm_.resize(size);
   weights_.resize(size);
   robust_weights_.resize(size);
   residuals_mm_.resize(size);
+}
+
+void FrameAligner::SetSigmas(const std::vector<double>& sigmas_mm) {
+  ARTICAP_CHECK_EQ(sigmas_mm.size(), model_.columns.size());
+  model_.sigmas_mm = sigmas_mm;
+  FindUnstatedVariance();
+}
+
+void FrameAligner::FindUnstatedVariance() {
+  unstated_variance_mm2_.clear();
+  for (int i = 0; i < model_.size(); ++i) {
+    const double stated = mean_stated_variance_mm2_[i];
+    const double found = model_.sigmas_mm[i] * model_.sigmas_mm[i];
+    unstated_variance_mm2_.push_back(stated < found ? found - stated : 0.0);
+  }
 }
 
 void FrameAligner::Gather(int frame) {
@@ -64,9 +76,8 @@ void FrameAligner::Gather(int frame) {
       continue;
     }
     const double stated = tracks_.sigma_mm(frame, column);
-    const double variance = std::isfinite(stated)
-                                ? stated_scale_[i] * stated * stated + unstated_variance_mm2_[i]
-                                : model_.sigmas_mm[i] * model_.sigmas_mm[i];
+    const double variance = std::isfinite(stated) ? stated * stated + unstated_variance_mm2_[i]
+                                                  : model_.sigmas_mm[i] * model_.sigmas_mm[i];
     sample_sigmas_mm_[i] = std::sqrt(std::max(variance, kSmallestSigmaMm * kSmallestSigmaMm));
     weights_[i] = 1 / (sample_sigmas_mm_[i] * sample_sigmas_mm_[i]);
     robust_weights_[i] = 1;
@@ -93,8 +104,8 @@ double FrameAligner::LargestResidual() const {
 
 void FrameAligner::FitRobustly(FrameAlignment& alignment) {
   constexpr double kStep = 0.6;              // from one threshold to the next
-  constexpr double kSettled = 1e-4;          // change of a weight
-  constexpr int kMaxFinalIterations = 20;    // at the last threshold
+  constexpr double kSettled = 1e-3;          // change of a weight
+  constexpr int kMaxFinalIterations = 10;    // at the last threshold
   constexpr double kSmallestWeight = 1e-12;  // keeps "seen" apart from "not seen"
   double threshold = LargestResidual();
   for (int final_iterations = 0; final_iterations < kMaxFinalIterations;) {

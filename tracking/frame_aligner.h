@@ -54,10 +54,12 @@ class FrameAligner {
 
   const ReferenceModel& model() const { return model_; }
   void SetPoints(const std::vector<Eigen::Vector3d>& points_mm) { model_.points_mm = points_mm; }
+  void SetSigmas(const std::vector<double>& sigmas_mm);
 
  private:
   static constexpr double kOutlierWeight = 0.5;
 
+  void FindUnstatedVariance();
   void Gather(int frame);
   void FitAndMeasure(FrameAlignment& alignment);
   void FitRobustly(FrameAlignment& alignment);
@@ -66,10 +68,9 @@ class FrameAligner {
   const StageTracks& tracks_;
   ReferenceModel model_;
   AlignerOptions options_;
-  // The sigmas that a file states say which samples are better than others; the data say how large
-  // the whole is. A sample's variance is scale * stated^2 + unstated: what is stated is scaled down
-  // where the data are better, and the skin's share is added where they are worse.
-  std::vector<double> stated_scale_;
+  // Where a file states sigmas they hold; what the data show beyond them (skin) is added:
+  // variance = stated^2 + unstated.
+  std::vector<double> mean_stated_variance_mm2_;  // NaN where nothing is stated
   std::vector<double> unstated_variance_mm2_;
 
   // Of the current frame.

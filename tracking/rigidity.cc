@@ -83,8 +83,9 @@ DistanceStatistics MeasureDistances(const StageTracks& tracks, std::span<const i
 std::vector<double> SigmasOfMembers(const Eigen::MatrixXd& variance_mm2,
                                     std::span<const int> members) {
   const auto size = static_cast<Eigen::Index>(members.size());
-  // Normal equations of var(i, j) = x_i + x_j over the pairs with a variance, each weighted by its
-  // own precision: the standard error of a variance is proportional to the variance.
+  // Normal equations of var(i, j) = x_i + x_j over the pairs with a variance. All pairs weigh the
+  // same: by their precision (1/variance^2) they would pay off on independent noise, but pairs that
+  // sit on one piece of skin would then decide everything.
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   for (Eigen::Index i = 0; i < size; ++i)
@@ -92,15 +93,14 @@ std::vector<double> SigmasOfMembers(const Eigen::MatrixXd& variance_mm2,
       if (i == j) continue;
       const double variance = variance_mm2(members[i], members[j]);
       if (std::isnan(variance)) continue;
-      const double weight = 1 / std::max(variance * variance, std::pow(kSmallestSigmaMm, 4));
-      normal(i, i) += weight;
-      normal(i, j) += weight;
-      right[i] += weight * variance;
+      normal(i, i) += 1;
+      normal(i, j) += 1;
+      right[i] += variance;
     }
   // Too few pairs leave the system singular; the slight pull to the assumed variance decides then.
-  const double pull = 1e-6 * std::max(normal.trace() / static_cast<double>(size), 1.0);
-  normal.diagonal().array() += pull;
-  right.array() += pull * kAssumedSigmaMm * kAssumedSigmaMm;
+  constexpr double kPull = 1e-6;
+  normal.diagonal().array() += kPull;
+  right.array() += kPull * kAssumedSigmaMm * kAssumedSigmaMm;
   const Eigen::VectorXd variances = normal.ldlt().solve(right);
 
   std::vector<double> sigmas_mm;

@@ -55,7 +55,11 @@ Result<ReferenceModel> OwnShape(const StageTracks& tracks, const std::vector<int
 Result<ShapeComparison> AdoptGivenShape(const std::vector<std::string>& names,
                                         const HeadShape& given, double tolerance_mm,
                                         ReferenceModel& model) {
-  auto comparison = CompareWithShape(names, model.points_mm, given, tolerance_mm);
+  // References that wander by themselves cannot be expected nearer to their places than that.
+  constexpr double kWanderSigmas = 4;
+  auto comparison =
+      CompareWithShape(names, model.points_mm, given,
+                       std::max(tolerance_mm, kWanderSigmas * MedianOf(model.sigmas_mm)));
   if (!comparison) return comparison;
   for (int i = 0; i < model.size(); ++i) {
     const NamedPoint* point = given.Find(names[i]);

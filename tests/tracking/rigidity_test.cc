@@ -17,7 +17,8 @@ TEST(SpreadFramesTest, CoversTheTake) {
   EXPECT_THAT(SpreadFrames(0, 5), testing::IsEmpty());
 }
 
-// Two thousand frames know a percentile range to some 3 %.
+// Two thousand frames know the width of a distribution to some 3 %, the variance of a pair with the
+// bad marker (0.68 mm^2) thus to 0.04 mm^2; a quarter of that may turn up in a good one's 0.04.
 TEST(DistanceStatisticsTest, SplitsTheNoiseAmongTheMarkers) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
@@ -43,7 +44,8 @@ TEST(DistanceStatisticsTest, SplitsTheNoiseAmongTheMarkers) {
   EXPECT_TRUE(std::isnan(statistics.variance_mm2(2, 5)));
   const std::vector<int> members = {0, 1, 2, 3, 4};
   const auto found_mm = SigmasOfMembers(statistics.variance_mm2, members);
-  for (int i = 0; i < 5; ++i) EXPECT_NEAR(found_mm[i] / sigmas_mm[i], 1, 0.2) << i;
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(found_mm[i], sigmas_mm[i], 0.08) << i;
+  EXPECT_NEAR(found_mm[4], sigmas_mm[4], 0.08);
   const auto weighting_mm = WeightingSigmas(found_mm);
   EXPECT_EQ(weighting_mm[4], found_mm[4]);
   for (int i = 0; i < 4; ++i) EXPECT_GE(weighting_mm[i], MedianOf(found_mm));
