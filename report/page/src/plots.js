@@ -103,7 +103,8 @@ export class PlotRow {
       }
       const line = {stroke, width: 1.35, dash, points: {show: false}};
       if (high !== low) {
-        bands.push({series: [data.length, data.length + 1], fill: stroke});
+        // What the frames between did is somewhere in here.
+        bands.push({series: [data.length, data.length + 1], fill: `${stroke}90`});
         data.push(withGaps(high), withGaps(low));
         series.push(line, line);
       } else {
