@@ -67,6 +67,10 @@ const tests = {
     assert.match(await page.textContent('#facts'), /590 frames/);
     assert.equal(await page.locator('.warnings li').count(), 2);
     assert.equal(await page.locator('.stage-card').count(), 3);
+    for (const card of await page.$$('.stage-card')) {
+      const {height} = await card.boundingBox();
+      assert.ok(height < 600, `a stage's card is ${height} pixels high`);
+    }
     assert.equal(await page.locator('#parameters .plot canvas').count(), 11);
     assert.equal(await page.locator('#residuals tr').count(), 37);
     assert.ok(await coloursOf(page, '.stage-3d canvas') > 50, 'the head in 3D is blank');

@@ -46,7 +46,12 @@ StageReport MakeReport(const std::string& stage, const std::string& verdict) {
   report.stage = stage;
   report.verdict = verdict;
   report.figures = {{"frames", 1590}, {"median_residual_mm", 0.4312}, {"largest_turn_deg", 12.5}};
-  report.texts = {{"mode", "rigid"}};
+  report.texts = {
+      {"mode", "rigid"},
+      {"references", "ForeHead_M,ForeHead_L,ForeHead_R,Leye_Inside,Reye_Inside,NoseTop,NoseHead"},
+      {"axes", "y from Chin to NoseTop, x from Reye_Outside to Leye_Outside"}};
+  for (int i = 1; i <= 12; ++i)
+    report.figures.emplace_back("a_figure_of_some_length_" + std::to_string(i) + "_mm", i / 7.0);
   report.tables = {{"references", {"rms_mm", "largest_mm"}, {{"brow", {0.21, 0.88}}}}};
   report.options = {{"max_residual_mm", "2"}, {"robust", "true"}};
   return report;
