@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/animation.h"
 #include "apps/residual_csv.h"
 #include "report/report_page.h"
 
@@ -50,7 +51,7 @@ std::string PageOf(const FitOutcome& outcome, const FaceRig& speaker,
 
 }  // namespace
 
-Result<OutputSet> FitOutputs(const FitOutcome& outcome, const FaceRig& rig,
+Result<OutputSet> FitOutputs(FitOutcome& outcome, const FaceRig& rig,
                              const std::optional<TimeWindow>& window,
                              const std::filesystem::path& folder) {
   const ParameterTrack& track = outcome.fit.parameters;
@@ -62,7 +63,11 @@ Result<OutputSet> FitOutputs(const FitOutcome& outcome, const FaceRig& rig,
   }
   const Result<FaceRig> speaker = RigOfBinding(outcome.binding, rig);
   if (!speaker) return tl::unexpected(speaker.error());
+  auto animation = AnimationOf(track, *speaker, frames);
+  if (!animation) return tl::unexpected(animation.error());
+  outcome.reports.push_back(std::move(animation->report));
   OutputSet outputs;
+  outputs.Add(folder / "animation.glb", std::move(animation->output));
   outputs.Add(folder / "parameters.csv", WriteParameterCsv(track));
   outputs.AddWriter(folder / "parameters.h5", [&track](const std::filesystem::path& path) {
     return WriteParameterHdf5(track, path);

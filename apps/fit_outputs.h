@@ -17,8 +17,9 @@ struct TimeWindow {
 
 // The files of `articap fit` in a folder: parameters.csv, parameters.h5, residuals.csv,
 // head_pose.csv, binding.toml, report.json, report.html and animation.glb, the latter two over the
-// window, or over what they choose by themselves. The outcome must live until they are written.
-Result<OutputSet> FitOutputs(const FitOutcome& outcome, const FaceRig& rig,
+// window, or over what they choose by themselves. The outcome gets the animation's report, and must
+// live until the files are written.
+Result<OutputSet> FitOutputs(FitOutcome& outcome, const FaceRig& rig,
                              const std::optional<TimeWindow>& window,
                              const std::filesystem::path& folder);
 

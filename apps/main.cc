@@ -23,7 +23,7 @@ const std::vector<articap::VerbEntry>& Verbs() {
       {"fit", "markers in, articulatory parameters out", articap::FitCommand},
       {"synthesize", "a recording of somebody who never lived, with the truth",
        articap::SynthesizeCommand},
-      {"rig", "talking heads: info, render", articap::RigCommand},
+      {"rig", "talking heads: info, render, export, import", articap::RigCommand},
   };
   return verbs;
 }

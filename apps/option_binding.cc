@@ -16,10 +16,18 @@ std::string Kebab(std::string name) {
   return name;
 }
 
+// Without a description, which the help would repeat after the type.
+CLI::Validator IsNumber() { return CLI::TypeValidator<double>("").description(""); }
+CLI::Validator IsInteger() { return CLI::TypeValidator<int>("").description(""); }
+
 }  // namespace
 
 std::string FlagOf(const std::string& prefix, const std::string& option_name) {
   return "--" + (prefix.empty() ? "" : Kebab(prefix) + "-") + Kebab(option_name);
+}
+
+std::string NegatedFlagOf(const std::string& prefix, const std::string& option_name) {
+  return "--no-" + FlagOf(prefix, option_name).substr(2);
 }
 
 FlagRegistrar::FlagRegistrar(CLI::App& app, std::string prefix, std::string group)
@@ -34,17 +42,23 @@ CLI::Option* FlagRegistrar::Register(const char* name, const std::string& type,
 }
 
 void FlagRegistrar::operator()(const char* name, bool& value, const char* help) {
+  // Both ways can be said, since a file of options may differ from the default; the help shows the
+  // one that changes it.
   const std::string flag = FlagOf(prefix_, name);
-  const std::string described = fmt::format("{} [{}]", help, value ? "yes" : "no");
-  app_.add_flag(flag + ",!--no-" + flag.substr(2), described)->group(group_);
+  const std::string hidden;
+  CLI::Option* yes = app_.add_flag(flag)->description(help)->group(value ? hidden : group_);
+  CLI::Option* no = app_.add_flag(NegatedFlagOf(prefix_, name))
+                        ->description(fmt::format("not: {}", help))
+                        ->group(value ? group_ : hidden);
+  yes->excludes(no);
 }
 
 void FlagRegistrar::operator()(const char* name, int& value, const char* help) {
-  Register(name, "INT", fmt::format("{}", value), help)->check(CLI::TypeValidator<int>("INT"));
+  Register(name, "INT", fmt::format("{}", value), help)->check(IsInteger());
 }
 
 void FlagRegistrar::operator()(const char* name, double& value, const char* help) {
-  Register(name, "NUMBER", fmt::format("{}", value), help)->check(CLI::Number);
+  Register(name, "NUMBER", fmt::format("{}", value), help)->check(IsNumber());
 }
 
 void FlagRegistrar::operator()(const char* name, std::string& value, const char* help) {
@@ -60,7 +74,7 @@ void FlagRegistrar::operator()(const char* name, std::vector<std::string>& value
 }
 
 void FlagRegistrar::operator()(const char* name, std::optional<double>& value, const char* help) {
-  Register(name, "NUMBER", value ? fmt::format("{}", *value) : "", help)->check(CLI::Number);
+  Register(name, "NUMBER", value ? fmt::format("{}", *value) : "", help)->check(IsNumber());
 }
 
 void FlagRegistrar::Choice(const char* name, int& value, const std::vector<std::string>& choices,
@@ -92,8 +106,10 @@ void OptionReader::WrongType(const char* name, const toml::node& node,
 
 void OptionReader::operator()(const char* name, bool& value, const char*) {
   const toml::node* node = ConfigNode(name);
-  if (const CLI::Option* flag = GivenFlag(name)) {
-    value = flag->as<bool>();
+  if (GivenFlag(name) != nullptr) {
+    value = true;
+  } else if (app_.count(NegatedFlagOf(prefix_, name)) > 0) {
+    value = false;
   } else if (node != nullptr) {
     if (const auto read = node->value_exact<bool>())
       value = *read;

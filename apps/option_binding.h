@@ -13,6 +13,8 @@ namespace articap {
 
 // "max_residual_mm" with the prefix "bind" -> "--bind-max-residual-mm".
 std::string FlagOf(const std::string& prefix, const std::string& option_name);
+// "use_filled" -> "--no-use-filled".
+std::string NegatedFlagOf(const std::string& prefix, const std::string& option_name);
 
 // Makes a flag of every field of an option struct, with its default in the help. The values stay
 // with CLI11 until an OptionReader collects them: enumerations are visited through a temporary.

@@ -133,15 +133,11 @@ Result<RigPose> PoseOf(const PoseArguments& arguments) {
   Result<FaceRig> rig = ChooseRig(arguments.rig_folder);
   if (!rig) return tl::unexpected(rig.error());
   if (!arguments.binding.empty()) return BoundPose(*rig, arguments.binding);
-  const auto sliders = ParseIdentity(*rig, arguments.identity);
-  if (!sliders) return tl::unexpected(sliders.error());
-  Eigen::VectorXd identity = rig->identity();
-  for (std::size_t index = 0; index < sliders->size(); ++index)
-    if ((*sliders)[index]) identity[static_cast<Eigen::Index>(index)] = *(*sliders)[index];
-  FaceRig own = rig->WithIdentity(identity);
-  const auto parameters = ParsePose(own, arguments.pose);
+  Result<FaceRig> own = WithIdentityText(*rig, arguments.identity);
+  if (!own) return tl::unexpected(own.error());
+  const auto parameters = ParsePose(*own, arguments.pose);
   if (!parameters) return tl::unexpected(parameters.error());
-  return RigPose{std::move(own), *parameters, {}};
+  return RigPose{std::move(*own), *parameters, {}};
 }
 
 }  // namespace

@@ -127,7 +127,10 @@ ExitCode VerbLine::Finish(const std::vector<StageReport>& reports) const {
   bool usable = true;
   for (const StageReport& report : reports) {
     usable = usable && report.IsUsable();
-    if (!json_) fmt::print("{}", report.BriefReport());
+    // The tables of the verb's own stage; those of the stages around it are in the files.
+    const bool own = reports.size() == 1 || app_.get_name().ends_with(" " + report.stage);
+    constexpr int kTableRows = 50;
+    if (!json_) fmt::print("{}", report.BriefReport(own ? kTableRows : 0));
   }
   if (json_)
     fmt::print("{}", reports.size() == 1 ? reports.front().ToJson() : ReportsToJson(reports));

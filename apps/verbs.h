@@ -18,6 +18,7 @@ ExitCode BindCommand(const std::vector<std::string>& arguments);
 ExitCode FitCommand(const std::vector<std::string>& arguments);
 ExitCode SynthesizeCommand(const std::vector<std::string>& arguments);
 ExitCode RigCommand(const std::vector<std::string>& arguments);
+ExitCode RigExportCommand(const std::vector<std::string>& arguments);
 ExitCode RigImportCommand(const std::vector<std::string>& arguments);
 ExitCode RigInfoCommand(const std::vector<std::string>& arguments);
 ExitCode RigRenderCommand(const std::vector<std::string>& arguments);
