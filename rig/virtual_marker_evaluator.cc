@@ -44,7 +44,8 @@ Form FormOf(const FaceRig& rig, std::span<const int> linear_columns,
   const auto& jaw = rig.definition().jaw;
   const Eigen::Vector3d pivot =
       jaw ? rig.neutral_mesh().vertices[jaw->pivot_vertex] : Eigen::Vector3d::Zero();
-  for (const auto& [vertex, weight] : sum) {
+  for (const auto& [vertex, share] : sum) {
+    const double weight = share;  // lambdas of C++20 capture no structured bindings in clang 14
     const double jaw_weight = weight * rig.jaw_weight(vertex);
     const auto add = [&](int term, const Eigen::Vector3d& point, const Eigen::Vector3d& arm) {
       form.fixed.col(term) += weight * point - jaw_weight * arm;
