@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "core/file_io.h"
 
 namespace articap::hdf5 {
 namespace {
@@ -17,6 +18,14 @@ std::mutex& LibraryMutex() {
 }
 
 constexpr std::size_t kMemoryStep = std::size_t{1} << 20;
+constexpr std::size_t kSealSize = 512;  // the smallest user block
+constexpr std::string_view kSealText = "articap HDF5, XXH3 of what follows these 512 bytes: ";
+
+std::string SealOf(std::string_view content) {
+  std::string seal = std::string(kSealText) + HashOf(content) + "\n";
+  seal.resize(kSealSize, '\0');
+  return seal;
+}
 
 // Object times off: the same content gives the same bytes.
 Handle TimelessDatasetProperties() {
@@ -142,7 +151,9 @@ QuietLibrary::~QuietLibrary() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 Handle CreateFileInMemory() {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   ARTICAP_CHECK(H5Pset_fapl_core(access.get(), kMemoryStep, false) >= 0);
-  Handle file(H5Fcreate("in-memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  ARTICAP_CHECK(H5Pset_userblock(creation.get(), kSealSize) >= 0);
+  Handle file(H5Fcreate("in-memory", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
   ARTICAP_CHECK(file.is_valid());
   return file;
 }
@@ -155,13 +166,22 @@ Handle OpenFileInMemory(std::string_view bytes) {
   return {H5Fopen("in-memory", H5F_ACC_RDONLY, access.get()), H5Fclose};
 }
 
-std::string BytesOf(const Handle& file) {
+std::string SealedBytesOf(const Handle& file) {
   ARTICAP_CHECK(H5Fflush(file.get(), H5F_SCOPE_GLOBAL) >= 0);
+  // The library's image of a file leaves out the user block.
   const ssize_t size = H5Fget_file_image(file.get(), nullptr, 0);
   ARTICAP_CHECK_GT(size, 0);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  ARTICAP_CHECK_EQ(H5Fget_file_image(file.get(), bytes.data(), bytes.size()), size);
-  return bytes;
+  std::string content(static_cast<std::size_t>(size), '\0');
+  ARTICAP_CHECK_EQ(H5Fget_file_image(file.get(), content.data(), content.size()), size);
+  return SealOf(content) + content;
+}
+
+bool IsSealed(std::string_view bytes) {
+  return bytes.size() >= kSealSize && bytes.starts_with(kSealText);
+}
+
+bool SealHolds(std::string_view bytes) {
+  return IsSealed(bytes) && bytes.substr(0, kSealSize) == SealOf(bytes.substr(kSealSize));
 }
 
 Handle WriteDataset(hid_t parent, const char* name, hid_t file_type, hid_t memory_type,

@@ -49,7 +49,13 @@ class QuietLibrary {
 // so that half a file is never found.
 Handle CreateFileInMemory();
 Handle OpenFileInMemory(std::string_view bytes);  // invalid where the bytes are not HDF5
-std::string BytesOf(const Handle& file);
+
+// The bytes of a file, headed by a seal: HDF5's user block of 512 bytes, which other programs pass
+// over, with the hash of all that follows. HDF5 1.10 reads beyond its buffers on damaged files, so
+// that a file is given to it only when its seal is whole.
+std::string SealedBytesOf(const Handle& file);
+bool IsSealed(std::string_view bytes);   // has a seal, whole or not
+bool SealHolds(std::string_view bytes);  // and nothing was changed since
 
 // Writing fails only for want of memory, or by a bug: checked. Texts are UTF-8 of fixed length.
 Handle WriteDataset(hid_t parent, const char* name, hid_t file_type, hid_t memory_type,

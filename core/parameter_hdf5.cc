@@ -81,7 +81,7 @@ std::string Hdf5BytesOf(const ParameterTrack& track) {
   WriteTable(file.get(), "sigmas", track.sigmas, track);
   WriteFrames(file.get(), track);
   if (!track.phones.empty()) hdf5::WriteStrings(file.get(), "phone", track.phones);
-  return hdf5::BytesOf(file);
+  return hdf5::SealedBytesOf(file);
 }
 
 // Reading. Every step fails with what it missed; the caller adds the path.
@@ -220,11 +220,19 @@ Result<void> WriteParameterHdf5(const ParameterTrack& track, const std::filesyst
 Result<ParameterTrack> ReadParameterHdf5(const std::filesystem::path& path) {
   const auto bytes = ReadFile(path);
   if (!bytes) return tl::unexpected(bytes.error());
+  if (!hdf5::IsSealed(*bytes))
+    return Fail(fmt::format(
+        "{}: is not an HDF5 file of articap ({} bytes); name the parameters.h5 that articap fit "
+        "wrote, or a parameters.csv",
+        path.string(), bytes->size()));
+  if (!hdf5::SealHolds(*bytes))
+    return Fail(fmt::format(
+        "{}: is cut short, damaged, or was changed by another program: its checksum is not that of "
+        "its {} bytes; fit again, or write the changes as CSV",
+        path.string(), bytes->size()));
   const hdf5::QuietLibrary quiet;
   const hdf5::Handle file = hdf5::OpenFileInMemory(*bytes);
-  if (!file.is_valid())
-    return Fail(fmt::format("{}: is not an HDF5 file, or only the beginning of one ({} bytes)",
-                            path.string(), bytes->size()));
+  if (!file.is_valid()) return Fail(fmt::format("{}: is not an HDF5 file", path.string()));
   auto track = ReadTrack(file.get());
   if (!track) return Fail(fmt::format("{}: {}", path.string(), track.error().message));
   return track;

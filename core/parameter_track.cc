@@ -19,8 +19,7 @@ const char* NameOf(FitStatus status) {
     case FitStatus::kWeak:
       return "weak";
   }
-  ARTICAP_CHECK(!"a status without a name");
-  return "";
+  ARTICAP_CHECK(false);
 }
 
 std::optional<FitStatus> FitStatusNamed(std::string_view name) {

@@ -46,7 +46,8 @@ Result<ParameterTrack> ParseParameterCsv(const std::string& text, const std::str
 
 // HDF5 with the datasets /parameters and /sigmas (frames x parameters, float64; attributes names,
 // units), /time_s, /frame, /residual_mm, /status (attribute: the names of the codes), /phone, and
-// the attributes rate_hz and articap_version. The same track gives the same bytes.
+// the attributes rate_hz and articap_version. The same track gives the same bytes. The first 512
+// bytes (HDF5's user block) hold a checksum; files that disagree with it are refused.
 Result<void> WriteParameterHdf5(const ParameterTrack& track, const std::filesystem::path& path);
 Result<ParameterTrack> ReadParameterHdf5(const std::filesystem::path& path);
 

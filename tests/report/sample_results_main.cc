@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Writes results like those of `articap fit`, for tests in a browser and in Python:
 //   articap_sample_results FOLDER [FRAMES]
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -12,12 +14,26 @@
 namespace articap {
 namespace {
 
+// Where the rig's vertices are in a frame, for the page's own evaluation to be held against.
+std::string VerticesCsv(const FaceRig& rig, const ParameterTrack& track, int frame) {
+  std::string text;
+  for (const Eigen::Vector3d& vertex : rig.Evaluate(track.values.row(frame)))
+    text += fmt::format("{:.4f},{:.4f},{:.4f}\n", vertex.x(), vertex.y(), vertex.z());
+  return text;
+}
+
 Result<void> WriteResults(const std::filesystem::path& folder, int num_frames) {
   const auto rig = MakeDefaultHead();
   if (!rig) return tl::unexpected(rig.error());
   const SampleTake take = MakeSampleTake(*rig, num_frames);
   if (auto done = WriteFile(folder / "report.html", BuildReportPage(take.Input(*rig))); !done)
     return done;
+  for (const int frame : {5, 40})
+    if (frame < num_frames) {
+      const auto path = folder / fmt::format("vertices_{}.csv", frame);
+      if (auto done = WriteFile(path, VerticesCsv(*rig, take.parameters, frame)); !done)
+        return done;
+    }
   if (auto done = WriteFile(folder / "parameters.csv", WriteParameterCsv(take.parameters)); !done)
     return done;
   if (auto done = WriteFile(folder / "report.json", ReportsToJson(take.reports)); !done)
