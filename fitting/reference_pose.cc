@@ -111,6 +111,45 @@ bool HasAny(const std::vector<double>& values) {
                      [](double value) { return std::isfinite(value); });
 }
 
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct RobustMean {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double sd_mm = 0;
+};
+
+// Mean and standard deviation of the positions that lie within three times the median distance from
+// the median: all of them but outliers, for normal noise in three dimensions goes further once in
+// 10,000 samples.
+RobustMean RobustMeanOf(const std::vector<Eigen::Vector3d>& positions) {
+  Eigen::Vector3d median;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> coordinates;
+    for (const Eigen::Vector3d& position : positions) coordinates.push_back(position[axis]);
+    median[axis] = Median(std::move(coordinates));
+  }
+  std::vector<double> distances;
+  for (const Eigen::Vector3d& position : positions) distances.push_back((position - median).norm());
+  const double most = 3 * Median(distances);
+  RobustMean mean;
+  double sum_of_squares = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (distances[i] > most) continue;
+    mean.position += positions[i] - median;
+    sum_of_squares += distances[i] * distances[i];
+    ++count;
+  }
+  mean.position /= count;
+  mean.sd_mm = std::sqrt(std::max(0.0, sum_of_squares / count - mean.position.squaredNorm()));
+  mean.position += median;
+  return mean;
+}
+
 }  // namespace
 
 std::vector<double> LandmarkDistances(const HeadTracks& tracks, const MarkerSet& set,
@@ -166,26 +205,18 @@ Result<FrameRange> ProposeReferenceFrames(const HeadTracks& tracks, const Marker
 AveragedPose AverageFrames(const HeadTracks& tracks, const FrameRange& frames) {
   AveragedPose averaged;
   for (int marker = 0; marker < tracks.num_markers(); ++marker) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double sum_of_squares = 0;
-    int count = 0;
-    for (int number = frames.first; number <= frames.last; ++number) {
-      const int frame = number - tracks.first_frame();
-      if (tracks.is_missing(frame, marker)) continue;
-      sum += tracks.position_mm(frame, marker);
-      sum_of_squares += tracks.position_mm(frame, marker).squaredNorm();
-      ++count;
-    }
+    std::vector<Eigen::Vector3d> seen;
+    for (int number = frames.first; number <= frames.last; ++number)
+      if (const int frame = number - tracks.first_frame(); !tracks.is_missing(frame, marker))
+        seen.push_back(tracks.position_mm(frame, marker));
     const std::string& name = tracks.names()[marker];
-    if (count == 0 || 2 * count < frames.size()) {
+    if (seen.empty() || 2 * static_cast<int>(seen.size()) < frames.size()) {
       averaged.left_out.push_back(name);
       continue;
     }
-    const Eigen::Vector3d mean = sum / count;
-    averaged.pose.points.push_back({name, mean});
-    averaged.largest_sd_mm =
-        std::max(averaged.largest_sd_mm,
-                 std::sqrt(std::max(0.0, sum_of_squares / count - mean.squaredNorm())));
+    const RobustMean mean = RobustMeanOf(seen);
+    averaged.pose.points.push_back({name, mean.position});
+    averaged.largest_sd_mm = std::max(averaged.largest_sd_mm, mean.sd_mm);
   }
   return averaged;
 }
