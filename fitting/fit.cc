@@ -92,7 +92,7 @@ RigTracks WithoutSpikes(RigTracks tracks, const FitOptions& options, double rig_
   report->warnings.push_back(
       fmt::format("{} samples are spikes, which no face could have followed ({}: {} of them), and "
                   "were left out "
-                  "of the fit (--max_acceleration_m_s2 0 keeps them)",
+                  "of the fit (--max-acceleration-m-s2 0 keeps them)",
                   spikes.size(), tracks.names()[worst - counts.begin()], *worst));
   return tracks;
 }
