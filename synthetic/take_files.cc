@@ -31,7 +31,7 @@ const char* NameOfFault(SampleFault fault) {
 
 // The shortest text that reads back as the same number, with the point that makes it a TOML float.
 std::string TomlFloat(double value) {
-  std::string text = fmt::format("{}", value);
+  std::string text = fmt::format("{}", value + 0.0);  // no negative zero
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
 }
