@@ -24,7 +24,7 @@ enum class HeadPoseStatus : std::uint8_t {
   kOk,
   kTooFewReferences,  // the pose is not known
   kIllConditioned,    // the references seen lie too near to a line: the pose is not known
-  kLargeResidual,     // found, but the references do not fit the reference shape
+  kLargeResidual,     // found, but the references do not fit the reference shape, or only three do
 };
 const char* NameOf(HeadPoseStatus status);
 

@@ -145,13 +145,15 @@ class MarkerSetReader {
   }
 
   Result<MarkerRole> ReadMarker(const toml::table& table) const {
-    if (auto known = CheckKeys(table, {"name", "roles", "landmark", "region", "offset_mm"}); !known)
+    if (auto known = CheckKeys(
+            table, {"name", "roles", "landmark", "beside_landmark", "region", "offset_mm"});
+        !known)
       return tl::unexpected(known.error());
     MarkerRole marker;
     for (auto read :
          {ReadText(table, "name", marker.name), ReadText(table, "landmark", marker.landmark),
           ReadText(table, "region", marker.region), ReadRoles(table, marker),
-          ReadOffset(table, marker)})
+          ReadBeside(table, marker), ReadOffset(table, marker)})
       if (!read) return tl::unexpected(read.error());
     if (marker.name.empty()) return Fail(fmt::format("{}: this marker has no name", Where(table)));
     if (!marker.landmark.empty() && !FindLandmark(marker.landmark))
@@ -183,6 +185,17 @@ class MarkerSetReader {
         return Fail(fmt::format("{}: role '{}' is there twice", Where(element), name));
       marker.*role->field = true;
     }
+    return {};
+  }
+
+  Result<void> ReadBeside(const toml::table& table, MarkerRole& marker) const {
+    const toml::node* node = table.get("beside_landmark");
+    if (!node) return {};
+    const auto value = node->value_exact<bool>();
+    if (!value || marker.landmark.empty())
+      return Fail(fmt::format("{}: beside_landmark must be true or false, and goes with a landmark",
+                              Where(*node)));
+    marker.beside_landmark = *value;
     return {};
   }
 
@@ -236,6 +249,7 @@ std::string WriteMarker(const MarkerRole& marker) {
   std::string text = fmt::format("\n[[marker]]\nname = {}\nroles = [{}]\n", Quoted(marker.name),
                                  fmt::join(roles, ", "));
   if (!marker.landmark.empty()) text += fmt::format("landmark = {}\n", Quoted(marker.landmark));
+  if (marker.beside_landmark) text += "beside_landmark = true\n";
   if (!marker.region.empty()) text += fmt::format("region = {}\n", Quoted(marker.region));
   if (marker.offset_mm != 0) text += fmt::format("offset_mm = {}\n", TomlNumber(marker.offset_mm));
   return text;

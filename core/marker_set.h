@@ -47,6 +47,7 @@ struct DeclaredAxes {
 //   name = "Chin"
 //   roles = ["strategic", "face"]         # of: head, strategic, face
 //   landmark = "chin"
+//   beside_landmark = true                # optional: near the landmark, not at it
 //   region = "jaw"                        # optional
 //   offset_mm = 2.0                       # optional
 struct MarkerSet {

@@ -48,13 +48,18 @@ std::vector<RolePoint> RolePoints(const HeadShape& pose, const MarkerSet& set, c
   return points;
 }
 
-std::vector<PointPair> StrategicPairs(const std::vector<RolePoint>& points,
-                                      const std::vector<Eigen::Vector3d>& rig_vertices) {
+// Where the centre of a marker at a landmark is on the rig: as high above the skin as the map has
+// it.
+std::vector<PointPair> StrategicPairs(const std::vector<RolePoint>& points, const FaceRig& rig,
+                                      const Eigen::VectorXd& pose) {
+  const TriangleMesh posed{rig.Evaluate(pose), rig.neutral_mesh().triangles};
+  const std::vector<Eigen::Vector3d> normals = VertexNormals(posed);
   std::vector<PointPair> pairs;
   for (const RolePoint& point : points)
     if (point.role->strategic && point.landmark_vertex)
-      pairs.push_back(
-          {point.role->name, point.point_in_head, rig_vertices[*point.landmark_vertex]});
+      pairs.push_back({point.role->name, point.point_in_head,
+                       posed.vertices[*point.landmark_vertex] +
+                           point.role->offset_mm * normals[*point.landmark_vertex]});
   return pairs;
 }
 
@@ -131,8 +136,9 @@ std::optional<std::string> FindFault(const std::vector<RolePoint>& points,
 std::vector<LandmarkPoint> LandmarkPoints(const std::vector<RolePoint>& points) {
   std::vector<LandmarkPoint> landmarks;
   for (const RolePoint& point : points)
-    if (point.landmark_vertex && (point.role->strategic || point.role->face))
-      landmarks.push_back({*point.landmark_vertex, point.point_in_head});
+    if (point.landmark_vertex && !point.role->beside_landmark &&
+        (point.role->strategic || point.role->face))
+      landmarks.push_back({*point.landmark_vertex, point.point_in_head, point.role->offset_mm});
   return landmarks;
 }
 
@@ -359,7 +365,7 @@ Result<StageResult<Binding>> Bind(const HeadTracks& reference, const HeadShape& 
   Eigen::VectorXd identity = Eigen::VectorXd::Zero(rig.identity().size());
   for (Eigen::Index k = 0; k < identity.size(); ++k) identity[k] = (*given_identity)[k].value_or(0);
   FaceRig own_rig = rig.WithIdentity(identity);
-  std::vector<PointPair> pairs = StrategicPairs(points, own_rig.Evaluate(*pose));
+  std::vector<PointPair> pairs = StrategicPairs(points, own_rig, *pose);
   if (pairs.size() < 3)
     return Fail(
         fmt::format("the reference pose has {} of the strategic markers that the orientation fit "
@@ -375,7 +381,7 @@ Result<StageResult<Binding>> Bind(const HeadTracks& reference, const HeadShape& 
   if (options.fit_identity) {
     identity = FitIdentity(rig, *pose, LandmarkPoints(points), fit.rig_from_head, *given_identity);
     own_rig = rig.WithIdentity(identity);
-    pairs = StrategicPairs(points, own_rig.Evaluate(*pose));
+    pairs = StrategicPairs(points, own_rig, *pose);
     fit = FitOrientation(pairs, loss);
   }
   DescribeOrientation(pairs, fit, &report);

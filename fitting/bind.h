@@ -29,7 +29,7 @@ struct BindOptions {
   int num_reference_frames = 60;
   // Distance (the paper), squared or Huber: what the orientation fit minimises.
   FitMetric metric = FitMetric::kDistance;
-  AttachMethod attach = AttachMethod::kLandmark;
+  AttachMethod attach = AttachMethod::kNearest;
   // Fit the rig's identity sliders to the reference pose, together with the seven parameters.
   bool fit_identity = true;
   // Identity sliders given by hand, "name=value"; those given are not fitted.

@@ -14,6 +14,7 @@
 #include "fitting/frame_fits.h"
 #include "fitting/refinement.h"
 #include "fitting/smoothing.h"
+#include "fitting/spikes.h"
 #include "rig/attachment.h"
 
 namespace articap {
@@ -29,9 +30,10 @@ constexpr double kMedianLength = 1.5382;
 // mean (Brown 1983).
 const double kDistanceInefficiency = std::sqrt(3 * M_PI / 8);
 
-// How far refinement may move a marker on the rig, mm: the error of attaching one face to another.
-constexpr double kRefinementPrior_mm = 4;
-constexpr int kRefinementRounds = 4;
+// How far refinement may move a marker on the rig, mm of the rig: one face's error of attachment to
+// another.
+constexpr double kRefinementReach_mm = 20;
+constexpr int kRefinementRounds = 8;
 
 struct FaceMarkers {
   std::vector<VirtualMarker> markers;
@@ -69,6 +71,30 @@ RigTracks MeasuredInRig(const HeadTracks& tracks, const FaceMarkers& face,
         chosen.Set(frame, static_cast<int>(i), tracks.position_mm(frame, column),
                    tracks.state(frame, column), tracks.sigma_mm(frame, column));
   return AlignToRig(chosen, rig_from_head);
+}
+
+// The tracks without their spikes, which the report counts and names.
+RigTracks WithoutSpikes(RigTracks tracks, const FitOptions& options, double rig_scale,
+                        StageReport* report) {
+  if (options.max_acceleration_m_s2 <= 0) return tracks;
+  SpikeLimits limits;
+  limits.max_acceleration_mm_s2 = 1e3 * rig_scale * options.max_acceleration_m_s2;
+  limits.noise_mm *= rig_scale;
+  std::vector<int> counts(tracks.num_markers());
+  const std::vector<Spike> spikes = FindSpikes(tracks, limits);
+  for (const Spike& spike : spikes) {
+    tracks.SetMissing(spike.frame, spike.marker);
+    ++counts[spike.marker];
+  }
+  report->figures.emplace_back("spikes", static_cast<double>(spikes.size()));
+  if (spikes.empty()) return tracks;
+  const auto worst = std::max_element(counts.begin(), counts.end());
+  report->warnings.push_back(
+      fmt::format("{} samples are spikes, which no face could have followed ({}: {} of them), and "
+                  "were left out "
+                  "of the fit (--max-acceleration-m-s2 0 keeps them)",
+                  spikes.size(), tracks.names()[worst - counts.begin()], *worst));
+  return tracks;
 }
 
 // Ranges of the parameters, and the bounds within which they are fitted.
@@ -246,6 +272,8 @@ void VisitOptions(FitOptions& options, OptionVisitor& visit) {
   visit("smoothing_s", options.smoothing_s,
         "prior on smooth trajectories: accelerations of one range per this time squared are usual; "
         "0: none; s");
+  visit("max_acceleration_m_s2", options.max_acceleration_m_s2,
+        "samples that would need more are spikes and left out of the fit; 0: keep all; m/s^2");
   visit("refine_frames", options.refine_frames,
         "refine where the markers sit on the rig from this many frames; 0: not");
   visit("threads", options.threads, "threads; 0: one a processor; the result is the same");
@@ -271,9 +299,10 @@ Result<StageResult<ShapeFit>> Fit(const HeadTracks& tracks, const Binding& bindi
         "the take has none of the binding's face markers; check that it is of the same "
         "marker set");
 
-  const RigTracks measured = MeasuredInRig(tracks, face, binding.rig_from_head);
-  const Box box = BoxOf(*own_rig, options.bounded);
   const double scale = binding.rig_from_head.scale;
+  const RigTracks measured =
+      WithoutSpikes(MeasuredInRig(tracks, face, binding.rig_from_head), options, scale, &report);
+  const Box box = BoxOf(*own_rig, options.bounded);
   const MarkerLoss loss{options.metric, options.epsilon_mm, options.huber_mm};
   std::vector<bool> judged(measured.num_frames());
   for (int frame = 0; frame < measured.num_frames(); ++frame)
@@ -306,10 +335,11 @@ Result<StageResult<ShapeFit>> Fit(const HeadTracks& tracks, const Binding& bindi
   if (options.refine_frames > 0) {
     const std::vector<int> chosen = SpreadFrames(measured.num_frames(), options.refine_frames);
     for (const int frame : chosen) judged[frame] = false;
+    const std::vector<VirtualMarker> bound = face.markers;
     for (int round = 0; round < kRefinementRounds; ++round) {
       const FrameFits fits = fit_frames(face.markers, measured, &determined, false);
-      face.markers = RefineAttachments(*own_rig, face.markers, measured, chosen, fits.parameters,
-                                       scale * kRefinementPrior_mm);
+      face.markers = RefineAttachments(*own_rig, bound, face.markers, measured, chosen,
+                                       fits.parameters, kRefinementReach_mm);
     }
     report.figures.emplace_back("refined_from_frames", static_cast<double>(chosen.size()));
   }

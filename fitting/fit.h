@@ -44,6 +44,9 @@ struct FitOptions {
   // of one marker coordinate of marker_sigma_mm resisting accelerations of one range per
   // smoothing_s^2.
   double smoothing_s = 0;
+  // Samples that would need a greater acceleration of the face are taken out before the fit, and
+  // reported; 0 keeps all. Speech stays below some 20; m/s^2.
+  double max_acceleration_m_s2 = 25;
   // Refine each virtual marker's s, t and u over this many frames spread over the take; 0 for none.
   int refine_frames = 0;
   // Threads; 0 for one a processor. The result does not depend on it.

@@ -72,6 +72,7 @@ Eigen::VectorXd FitIdentity(const FaceRig& rig, const Eigen::VectorXd& pose,
 
   const FaceRig average = rig.WithIdentity(identity);
   const auto neutral = average.Evaluate(pose);
+  const auto normals = VertexNormals({neutral, average.neutral_mesh().triangles});
   const auto displacements = LandmarkDisplacements(average, pose, points, neutral);
   double rotation[4] = {rig_from_head.rotation.w(), rig_from_head.rotation.x(),
                         rig_from_head.rotation.y(), rig_from_head.rotation.z()};
@@ -82,7 +83,10 @@ Eigen::VectorXd FitIdentity(const FaceRig& rig, const Eigen::VectorXd& pose,
   problem.AddParameterBlock(rotation, 4, new ceres::QuaternionManifold);
   for (std::size_t i = 0; i < points.size(); ++i)
     problem.AddResidualBlock(
-        IdentityCost::Create(points[i].point_in_head, neutral[points[i].vertex], displacements[i]),
+        IdentityCost::Create(
+            points[i].point_in_head,
+            neutral[points[i].vertex] + points[i].height_mm * normals[points[i].vertex],
+            displacements[i]),
         new ceres::ScaledLoss(new ceres::HuberLoss(2 * kLandmarkSigma_mm),
                               1 / (kLandmarkSigma_mm * kLandmarkSigma_mm), ceres::TAKE_OWNERSHIP),
         rotation, translation_mm.data(), &log_scale, identity.data());

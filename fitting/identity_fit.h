@@ -11,10 +11,11 @@
 
 namespace articap {
 
-// A measured point and the landmark of the rig that it sits at.
+// A measured point and the landmark of the rig that it sits at, so high above the skin.
 struct LandmarkPoint {
   int vertex = 0;
   Eigen::Vector3d point_in_head = Eigen::Vector3d::Zero();
+  double height_mm = 0;
 };
 
 // The identity sliders that bring a rig's landmarks nearest to measured points, with the seven

@@ -11,15 +11,17 @@
 
 namespace articap {
 
-// Re-estimates where each marker sits on the rig, (s, t, u) on its triangle, from many frames: the
-// latent markers of MoSh (Loper, Mahmood and Black 2014) for a rig whose pose in each frame is
-// known. Linear least squares per marker, with distances weighted down as the fit's metric does,
-// and with the binding's own coordinates as a prior of standard deviation `prior_mm`. `poses`:
-// frames x parameters, of the frames listed. The refined markers no longer meet the reference pose
-// exactly.
+// Re-estimates where each marker sits on the rig from many frames: the latent markers of MoSh
+// (Loper, Mahmood and Black 2014) for a rig whose pose in each frame is known. Every triangle of
+// the marker's region within `reach_mm` of where it was bound is tried, with (s, t, u) by linear
+// least squares over the frames, distances weighted down as the fit's metric does; the best stays.
+// So a marker finds the spot of the rig's skin that moves as the speaker's does. `poses`: frames x
+// parameters of the take, of which those listed in `frames` are used; `bound`: the binding's own
+// markers. The refined markers no longer meet the reference pose exactly.
 std::vector<VirtualMarker> RefineAttachments(const FaceRig& rig,
-                                             const std::vector<VirtualMarker>& markers,
+                                             const std::vector<VirtualMarker>& bound,
+                                             const std::vector<VirtualMarker>& current,
                                              const RigTracks& measured, std::span<const int> frames,
-                                             const Eigen::MatrixXd& poses, double prior_mm);
+                                             const Eigen::MatrixXd& poses, double reach_mm);
 
 }  // namespace articap

@@ -56,9 +56,9 @@ Json RunsOf(const std::vector<int>& codes) {
 }
 
 double Percentile(std::vector<float>& values, double fraction) {
-  const std::size_t rank = std::min(
-      values.size() - 1,
-      static_cast<std::size_t>(std::floor(fraction * static_cast<double>(values.size()))));
+  const std::size_t rank =
+      std::min(values.size() - 1,
+               static_cast<std::size_t>(std::floor(fraction * static_cast<double>(values.size()))));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank),
                    values.end());
   return values[rank];
@@ -98,8 +98,8 @@ std::vector<std::uint8_t> HeatOf(const MarkerResiduals& residuals, int frames_pe
       for (const float distance : residuals.distances_mm.col(marker).segment(begin, count))
         if (distance > largest && std::isfinite(distance)) largest = distance;
       heat.push_back(largest < 0 ? kUnused
-                                 : static_cast<std::uint8_t>(std::min(
-                                       254.0, std::round(largest / mm_per_step))));
+                                 : static_cast<std::uint8_t>(
+                                       std::min(254.0, std::round(largest / mm_per_step))));
     }
   return heat;
 }
@@ -135,8 +135,8 @@ Json StagesData(const std::vector<StageReport>& reports) {
     stage["figures"] = Json::array();
     for (const auto& [name, value] : report.figures)
       stage["figures"].push_back({{"name", name}, {"value", NumberOrNull(value)}});
-    for (const auto& [key, entries] : {std::pair("texts", &report.texts),
-                                       std::pair("options", &report.options)}) {
+    for (const auto& [key, entries] :
+         {std::pair("texts", &report.texts), std::pair("options", &report.options)}) {
       stage[key] = Json::array();
       for (const auto& [name, value] : *entries)
         stage[key].push_back({{"name", name}, {"value", value}});
@@ -167,8 +167,8 @@ Json ParameterData(const ReportPageInput& input) {
     const FileUnit unit = FileUnitOf(track.units[i]);
     const Eigen::VectorXd values = unit.in_file_per_value * track.values.col(i);
     const Eigen::VectorXd sigmas = unit.in_file_per_value * track.sigmas.col(i);
-    Json parameter = SeriesData({values.data(), static_cast<std::size_t>(values.size())},
-                                frames_per_point);
+    Json parameter =
+        SeriesData({values.data(), static_cast<std::size_t>(values.size())}, frames_per_point);
     parameter["name"] = track.names[i];
     parameter["unit"] = unit.name;
     if (!input.ranges.empty()) {
@@ -209,17 +209,16 @@ Json StatusData(const ParameterTrack& track) {
 }
 
 Json ResidualData(const MarkerResiduals& residuals) {
-  constexpr std::int64_t kMostCells = 1'500'000;  // a byte each
-  ARTICAP_CHECK_EQ(residuals.names.size(),
-                   static_cast<std::size_t>(residuals.distances_mm.cols()));
+  constexpr std::int64_t kMostCells = 1'200'000;  // a byte each
+  ARTICAP_CHECK_EQ(residuals.names.size(), static_cast<std::size_t>(residuals.distances_mm.cols()));
   const std::int64_t num_cells = residuals.distances_mm.size();
   const int frames_per_column =
       static_cast<int>(std::max<std::int64_t>(1, (num_cells + kMostCells - 1) / kMostCells));
   Json markers = Json::array();
   double largest_mm = 0;
   for (std::size_t i = 0; i < residuals.names.size(); ++i) {
-    markers.push_back(MarkerStatistics(
-        residuals.names[i], residuals.distances_mm.col(static_cast<Eigen::Index>(i))));
+    markers.push_back(MarkerStatistics(residuals.names[i],
+                                       residuals.distances_mm.col(static_cast<Eigen::Index>(i))));
     if (markers.back()["max_mm"].is_number())
       largest_mm = std::max(largest_mm, markers.back()["max_mm"].get<double>());
   }
@@ -239,8 +238,8 @@ Json HeadPoseData(const HeadPoseTrack& head_pose, const ParameterTrack& track) {
   std::vector<std::vector<double>> columns(7, std::vector<double>(num_frames, kNaN));
   const Rigid3d* reference = nullptr;
   for (std::size_t i = 0; i < num_frames; ++i) {
-    const std::int64_t index = static_cast<std::int64_t>(i) + track.first_frame -
-                               head_pose.first_frame;
+    const std::int64_t index =
+        static_cast<std::int64_t>(i) + track.first_frame - head_pose.first_frame;
     if (index < 0 || index >= static_cast<std::int64_t>(head_pose.poses.size())) continue;
     const HeadPose& pose = head_pose.poses[static_cast<std::size_t>(index)];
     if (!pose.is_known()) continue;

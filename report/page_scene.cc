@@ -134,16 +134,15 @@ std::vector<std::string> MarkerNames(const ReportPageInput& input) {
 }  // namespace
 
 Json SceneData(const ReportPageInput& input, const FrameWindow& window) {
-  constexpr std::int64_t kMostPositions = 200'000;   // twelve bytes a marker and frame
-  constexpr std::size_t kLargestRigBytes = 5'000'000;  // some 150,000 vertices
+  constexpr std::int64_t kMostPositions = 150'000;     // twelve bytes a marker and frame
+  constexpr std::size_t kLargestRigBytes = 3'500'000;  // some 80,000 vertices
   const ParameterTrack& track = *input.parameters;
   const std::vector<std::string> names = MarkerNames(input);
   const std::int64_t num_positions =
       static_cast<std::int64_t>(names.size() + static_cast<std::size_t>(track.num_parameters())) *
       window.count;
-  const int stride =
-      static_cast<int>(std::max<std::int64_t>(1, (num_positions + kMostPositions - 1) /
-                                                     kMostPositions));
+  const int stride = static_cast<int>(
+      std::max<std::int64_t>(1, (num_positions + kMostPositions - 1) / kMostPositions));
   std::vector<int> frame_numbers;
   std::vector<double> values;
   for (int i = 0; i < window.count; i += stride) {

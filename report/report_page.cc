@@ -68,8 +68,7 @@ std::string BuildReportPage(const ReportPageInput& input) {
                {"statuses", StatusData(track)}};
   data["phones"] = track.phones.empty() ? Json(nullptr) : PhoneData(track);
   data["residuals"] = input.residuals ? ResidualData(*input.residuals) : Json(nullptr);
-  data["head_pose"] =
-      input.head_pose ? HeadPoseData(*input.head_pose, track) : Json(nullptr);
+  data["head_pose"] = input.head_pose ? HeadPoseData(*input.head_pose, track) : Json(nullptr);
   const bool has_scene = input.rig || input.measured || input.virtual_markers;
   const FrameWindow window =
       Clamped(input.window.value_or(DefaultWindow(track)), track.num_frames());

@@ -37,7 +37,7 @@ struct FrameWindow {
 // out. What is pointed at outlives the call.
 struct ReportPageInput {
   std::string title;
-  std::vector<StageReport> reports;  // in the order of the stages
+  std::vector<StageReport> reports;            // in the order of the stages
   const ParameterTrack* parameters = nullptr;  // needed
   std::vector<ParameterRange> ranges;          // a parameter each, or none
   const MarkerResiduals* residuals = nullptr;

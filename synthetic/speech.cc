@@ -26,9 +26,9 @@ struct Articulator {
 constexpr Articulator kArticulators[] = {
     {"jaw_rotation", &PhoneModel::jaw, &PhoneModel::jaw_weight, 0.13, 0.06, 0},
     {"lip_rounding", &PhoneModel::rounding, &PhoneModel::lip_weight, 0.12, 0.06, 0},
-    {"upper_lip_retraction", &PhoneModel::upper_retraction, &PhoneModel::lip_weight, 0.11, 0.1, 0},
+    {"upper_lip_retraction", &PhoneModel::upper_retraction, &PhoneModel::lip_weight, 0.11, 0.14, 0},
     {"upper_lip_raise", &PhoneModel::upper_raise, &PhoneModel::lip_weight, 0.1, 0.08, 0},
-    {"lower_lip_retraction", &PhoneModel::lower_retraction, &PhoneModel::lip_weight, 0.11, 0.1, 0},
+    {"lower_lip_retraction", &PhoneModel::lower_retraction, &PhoneModel::lip_weight, 0.11, 0.14, 0},
     {"lower_lip_depression", &PhoneModel::lower_depression, &PhoneModel::lip_weight, 0.1, 0.08, 0},
     {"left_mouth_corner_stretch", &PhoneModel::spread, &PhoneModel::lip_weight, 0.12, 0.1, 1},
     {"right_mouth_corner_stretch", &PhoneModel::spread, &PhoneModel::lip_weight, 0.12, 0.1, -1},

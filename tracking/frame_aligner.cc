@@ -7,23 +7,26 @@
 
 #include "core/alignment.h"
 #include "core/check.h"
+#include "tracking/rigidity.h"
 
 namespace articap {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Median of the sigmas that the file states for a marker, over at most a thousand frames.
-double TypicalSigma(const StageTracks& tracks, int marker) {
-  std::vector<float> sigmas;
+// Mean square of the sigmas that the file states for a marker, over at most a thousand frames; NaN
+// where it states none.
+double MeanStatedVariance(const StageTracks& tracks, int marker) {
+  double sum = 0;
+  int count = 0;
   const int step = std::max(1, tracks.num_frames() / 1000);
-  for (int frame = 0; frame < tracks.num_frames(); frame += step)
-    if (std::isfinite(tracks.sigma_mm(frame, marker)))
-      sigmas.push_back(tracks.sigma_mm(frame, marker));
-  if (sigmas.empty()) return kNaN;
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  return *middle;
+  for (int frame = 0; frame < tracks.num_frames(); frame += step) {
+    const double sigma_mm = tracks.sigma_mm(frame, marker);
+    if (!std::isfinite(sigma_mm)) continue;
+    sum += sigma_mm * sigma_mm;
+    ++count;
+  }
+  return count > 0 ? sum / count : kNaN;
 }
 
 }  // namespace
@@ -35,12 +38,28 @@ FrameAligner::FrameAligner(const StageTracks& tracks, ReferenceModel model,
   ARTICAP_CHECK_EQ(model_.points_mm.size(), size);
   ARTICAP_CHECK_EQ(model_.sigmas_mm.size(), size);
   for (const int column : model_.columns)
-    typical_sigmas_mm_.push_back(TypicalSigma(tracks, column));
+    mean_stated_variance_mm2_.push_back(MeanStatedVariance(tracks, column));
+  FindUnstatedVariance();
   points_in_stage_mm_.resize(size);
   sample_sigmas_mm_.resize(size);
   weights_.resize(size);
   robust_weights_.resize(size);
   residuals_mm_.resize(size);
+}
+
+void FrameAligner::SetSigmas(const std::vector<double>& sigmas_mm) {
+  ARTICAP_CHECK_EQ(sigmas_mm.size(), model_.columns.size());
+  model_.sigmas_mm = sigmas_mm;
+  FindUnstatedVariance();
+}
+
+void FrameAligner::FindUnstatedVariance() {
+  unstated_variance_mm2_.clear();
+  for (int i = 0; i < model_.size(); ++i) {
+    const double stated = mean_stated_variance_mm2_[i];
+    const double found = model_.sigmas_mm[i] * model_.sigmas_mm[i];
+    unstated_variance_mm2_.push_back(stated < found ? found - stated : 0.0);
+  }
 }
 
 void FrameAligner::Gather(int frame) {
@@ -56,12 +75,11 @@ void FrameAligner::Gather(int frame) {
       residuals_mm_[i] = kNaN;
       continue;
     }
-    // A sample that the file calls worse than is usual for its marker counts for less.
     const double stated = tracks_.sigma_mm(frame, column);
-    const double excess = stated * stated - typical_sigmas_mm_[i] * typical_sigmas_mm_[i];
-    const double variance = model_.sigmas_mm[i] * model_.sigmas_mm[i] + (excess > 0 ? excess : 0.0);
-    sample_sigmas_mm_[i] = std::sqrt(variance);
-    weights_[i] = 1 / variance;
+    const double variance = std::isfinite(stated) ? stated * stated + unstated_variance_mm2_[i]
+                                                  : model_.sigmas_mm[i] * model_.sigmas_mm[i];
+    sample_sigmas_mm_[i] = std::sqrt(std::max(variance, kSmallestSigmaMm * kSmallestSigmaMm));
+    weights_[i] = 1 / (sample_sigmas_mm_[i] * sample_sigmas_mm_[i]);
     robust_weights_[i] = 1;
   }
 }
@@ -86,8 +104,8 @@ double FrameAligner::LargestResidual() const {
 
 void FrameAligner::FitRobustly(FrameAlignment& alignment) {
   constexpr double kStep = 0.6;              // from one threshold to the next
-  constexpr double kSettled = 1e-4;          // change of a weight
-  constexpr int kMaxFinalIterations = 20;    // at the last threshold
+  constexpr double kSettled = 1e-3;          // change of a weight
+  constexpr int kMaxFinalIterations = 10;    // at the last threshold
   constexpr double kSmallestWeight = 1e-12;  // keeps "seen" apart from "not seen"
   double threshold = LargestResidual();
   for (int final_iterations = 0; final_iterations < kMaxFinalIterations;) {

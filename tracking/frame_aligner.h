@@ -54,10 +54,12 @@ class FrameAligner {
 
   const ReferenceModel& model() const { return model_; }
   void SetPoints(const std::vector<Eigen::Vector3d>& points_mm) { model_.points_mm = points_mm; }
+  void SetSigmas(const std::vector<double>& sigmas_mm);
 
  private:
   static constexpr double kOutlierWeight = 0.5;
 
+  void FindUnstatedVariance();
   void Gather(int frame);
   void FitAndMeasure(FrameAlignment& alignment);
   void FitRobustly(FrameAlignment& alignment);
@@ -66,8 +68,10 @@ class FrameAligner {
   const StageTracks& tracks_;
   ReferenceModel model_;
   AlignerOptions options_;
-  // What the file states as each reference's own sigma, typically; NaN where it states none.
-  std::vector<double> typical_sigmas_mm_;
+  // Where a file states sigmas they hold; what the data show beyond them (skin) is added:
+  // variance = stated^2 + unstated.
+  std::vector<double> mean_stated_variance_mm2_;  // NaN where nothing is stated
+  std::vector<double> unstated_variance_mm2_;
 
   // Of the current frame.
   std::vector<Eigen::Vector3d> points_in_stage_mm_;

@@ -103,7 +103,6 @@ class Searcher {
 
   std::vector<double> DistanceChanges(const std::vector<int>& columns) const {
     constexpr double kOtherPartMm = 50;  // farther than one piece of skin moves as one
-    constexpr double kSigmasFrom5To95Percent = 3.2897;
     std::vector<double> changes_mm;
     for (const int column : columns) {
       std::vector<double> of_column_mm;
@@ -111,7 +110,7 @@ class Searcher {
         if ((points_mm_[column] - points_mm_[candidate]).norm() < kOtherPartMm) continue;
         const double variance_mm2 = Variances({column, candidate})(0, 1);
         if (!std::isnan(variance_mm2))
-          of_column_mm.push_back(kSigmasFrom5To95Percent * std::sqrt(variance_mm2));
+          of_column_mm.push_back(kSigmasFrom10To90Percent * std::sqrt(variance_mm2));
       }
       changes_mm.push_back(MedianOf(std::move(of_column_mm)));
     }

@@ -29,8 +29,8 @@ struct ReferenceSearch {
   ReferenceSet chosen;
   ReferenceSet best;  // may be the chosen one
   // How rigid each chosen reference is, whatever the pose: how much its distance from a candidate
-  // on another part of the head changes (5th to 95th percentile; the median over these candidates).
-  // NaN where there are none.
+  // on another part of the head changes (10th to 90th percentile; the median over these
+  // candidates). NaN where there are none.
   std::vector<double> distance_change_mm;
 };
 

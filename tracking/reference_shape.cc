@@ -2,6 +2,7 @@
 #include "tracking/reference_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -107,14 +108,33 @@ double LargestChange(const Points& before, const Points& after) {
   return largest_mm;
 }
 
+// The sigmas, but none so small that half of a reference's samples were outliers: where skin moves
+// in patches, distances within a patch promise more than the whole keeps.
+std::vector<double> SigmasThatCover(FrameAligner& aligner, std::span<const int> frames) {
+  constexpr double kMedianOfChi3 = 1.538;  // of the length of a vector of three unit normals
+  constexpr int kEnough = 300;
+  std::vector<std::vector<double>> residuals_mm(aligner.model().columns.size());
+  for (const int pick : SpreadFrames(static_cast<int>(frames.size()), kEnough)) {
+    if (aligner.Align(frames[pick]).num_used < 3) continue;
+    for (std::size_t i = 0; i < residuals_mm.size(); ++i)
+      if (!std::isnan(aligner.residuals_mm()[i]))
+        residuals_mm[i].push_back(aligner.residuals_mm()[i]);
+  }
+  std::vector<double> sigmas_mm = aligner.model().sigmas_mm;
+  for (std::size_t i = 0; i < sigmas_mm.size(); ++i)
+    if (!residuals_mm[i].empty())
+      sigmas_mm[i] = std::max(sigmas_mm[i], MedianOf(std::move(residuals_mm[i])) / kMedianOfChi3);
+  return sigmas_mm;
+}
+
 }  // namespace
 
 ReferenceModel EstimateReferenceShape(const StageTracks& tracks, const std::vector<int>& columns,
                                       const std::vector<double>& sigmas_mm,
                                       const DistanceStatistics& distances,
                                       std::span<const int> frames, const AlignerOptions& options) {
-  constexpr int kMaxIterations = 50;
-  constexpr double kSettledMm = 1e-5;
+  constexpr int kMaxIterations = 30;
+  constexpr double kSettledMm = 1e-4;
   Points start = StartingShape(tracks, columns, distances, frames, options.use_filled);
   Centre(start);
   FrameAligner aligner(tracks, {columns, std::move(start), sigmas_mm}, options);
@@ -123,6 +143,7 @@ ReferenceModel EstimateReferenceShape(const StageTracks& tracks, const std::vect
     const double change_mm = LargestChange(aligner.model().points_mm, mean);
     aligner.SetPoints(mean);
     if (change_mm < kSettledMm) break;
+    if (iteration == 1) aligner.SetSigmas(SigmasThatCover(aligner, frames));
   }
   return aligner.model();
 }

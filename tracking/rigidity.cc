@@ -73,9 +73,8 @@ DistanceStatistics MeasureDistances(const StageTracks& tracks, std::span<const i
       const double median_mm = Quantile(distances_mm, 0.5);
       statistics.median_mm(i, j) = statistics.median_mm(j, i) = median_mm;
       if (count < kMinFramesForVariance) continue;
-      constexpr double kSigmasFrom5To95Percent = 3.2897;
-      const double range_mm = Quantile(distances_mm, 0.95) - Quantile(distances_mm, 0.05);
-      const double sigma_mm = range_mm / kSigmasFrom5To95Percent;
+      const double range_mm = Quantile(distances_mm, 0.9) - Quantile(distances_mm, 0.1);
+      const double sigma_mm = range_mm / kSigmasFrom10To90Percent;
       statistics.variance_mm2(i, j) = statistics.variance_mm2(j, i) = sigma_mm * sigma_mm;
     }
   return statistics;
@@ -84,7 +83,9 @@ DistanceStatistics MeasureDistances(const StageTracks& tracks, std::span<const i
 std::vector<double> SigmasOfMembers(const Eigen::MatrixXd& variance_mm2,
                                     std::span<const int> members) {
   const auto size = static_cast<Eigen::Index>(members.size());
-  // Normal equations of var(i, j) = x_i + x_j over the pairs with a variance.
+  // Normal equations of var(i, j) = x_i + x_j over the pairs with a variance. All pairs weigh the
+  // same: by their precision (1/variance^2) they would pay off on independent noise, but pairs that
+  // sit on one piece of skin would then decide everything.
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   for (Eigen::Index i = 0; i < size; ++i)

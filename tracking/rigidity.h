@@ -21,10 +21,12 @@ struct DistanceStatistics {
 };
 
 // Of the markers in `columns`, over `frames`. The variance is that of a normal distribution with
-// the same distance from the 5th to the 95th percentile: one sample in ten may be an outlier, yet
-// movement during a tenth of the take is noticed.
+// the same distance from the 10th to the 90th percentile: one sample in five may be an outlier, yet
+// movement during a fifth of the take is noticed.
 DistanceStatistics MeasureDistances(const StageTracks& tracks, std::span<const int> columns,
                                     std::span<const int> frames, bool use_filled);
+
+inline constexpr double kSigmasFrom10To90Percent = 2.5631;
 
 // Fewer frames than this say nothing about a variance.
 inline constexpr int kMinFramesForVariance = 20;

@@ -108,12 +108,14 @@ Result<void> CheckHandednessAndSize(const Paired& paired, double rms_mm, double 
         "the references fit the mirror image of the reference shape ({:.2f} mm) and not the shape "
         "({:.2f} mm): the data are mirrored or left-handed; use --mirror",
         test.rms_reflected, rms_mm));
-  const Sim3d fit = AlignSimilarity(paired.own_mm, paired.given_mm);
-  if (fit.scale > 2 || fit.scale < 0.5)
+  // Whatever the order of the names.
+  const double size_ratio =
+      std::sqrt(SpreadOf(paired.given_mm).scatter.sum() / SpreadOf(paired.own_mm).scatter.sum());
+  if (!(size_ratio < 2 && size_ratio > 0.5))
     return Fail(fmt::format(
         "the reference shape is {:.3g} times as large as the references of this take: another unit "
         "of length, or another subject's shape",
-        fit.scale));
+        size_ratio));
   return {};
 }
 
@@ -164,17 +166,18 @@ std::vector<std::string> NamesOf(const Paired& paired, const std::vector<std::si
   return names;
 }
 
-// The error where half of the references or more are off their places.
-tl::unexpected<Error> NoMajority(const Paired& paired, const std::vector<std::size_t>& left_out,
-                                 double rms_mm, double tolerance_mm) {
+// The error where the references left out keep a shape of their own, or are half of all or more.
+Result<void> CheckMajority(const Paired& paired, const std::vector<std::size_t>& left_out,
+                           double rms_mm, double tolerance_mm) {
   std::vector<std::size_t> kept;
   Points own, given;
   for (std::size_t i = 0; i < paired.names.size(); ++i) {
-    const bool is_left_out = std::ranges::find(left_out, i) != left_out.end();
-    if (!is_left_out) kept.push_back(i);
-    if (!is_left_out) continue;
-    own.push_back(paired.own_mm[i]);
-    given.push_back(paired.given_mm[i]);
+    if (std::ranges::find(left_out, i) == left_out.end()) {
+      kept.push_back(i);
+    } else {
+      own.push_back(paired.own_mm[i]);
+      given.push_back(paired.given_mm[i]);
+    }
   }
   if (left_out.size() >= 3 && RigidRms(own, given) <= tolerance_mm)
     return Fail(fmt::format(
@@ -182,10 +185,13 @@ tl::unexpected<Error> NoMajority(const Paired& paired, const std::vector<std::si
         "against one another since the reference shape was made: {} and {}. Were the spectacles "
         "seated anew? Take the references from one group, and bind this take anew",
         fmt::join(NamesOf(paired, kept), ", "), fmt::join(NamesOf(paired, left_out), ", ")));
-  return Fail(fmt::format(
-      "the references do not fit the reference shape: {:.1f} mm RMS, and most of them disagree "
-      "({}). It is another subject's shape, or the markers were placed anew: estimate a new shape",
-      rms_mm, fmt::join(NamesOf(paired, left_out), ", ")));
+  if (left_out.size() > 1 && 2 * left_out.size() + 1 >= paired.names.size())
+    return Fail(fmt::format(
+        "the references do not fit the reference shape: {:.1f} mm RMS, and most of them disagree "
+        "({}). It is another subject's shape, or the markers were placed anew: estimate a new "
+        "shape",
+        rms_mm, fmt::join(NamesOf(paired, left_out), ", ")));
+  return {};
 }
 
 }  // namespace
@@ -211,9 +217,8 @@ Result<ShapeComparison> CompareWithShape(const std::vector<std::string>& names,
       if (auto named = CheckNames(paired, rms_mm, tolerance_mm); !named)
         return tl::unexpected(named.error());
   }
-  const bool is_majority_off =
-      left_out.size() > 1 && 2 * left_out.size() + 1 >= paired.names.size();
-  if (is_majority_off) return NoMajority(paired, left_out, rms_mm, tolerance_mm);
+  if (auto majority = CheckMajority(paired, left_out, rms_mm, tolerance_mm); !majority)
+    return tl::unexpected(majority.error());
   ShapeComparison comparison{Deviations(paired, left_out, names.size()), {}, {}};
   for (const std::size_t i : left_out) {
     const double off_mm = comparison.deviation_mm[paired.index[i]];

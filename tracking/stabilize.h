@@ -42,7 +42,7 @@ struct StabilizeOptions {
   // A given shape's references further from their places than this are named.
   double shape_tolerance_mm = 1;
   // References whose distance from still markers on other parts of the head changes by more than
-  // this (5th to 95th percentile) are named as not rigid.
+  // this (10th to 90th percentile) are named as not rigid.
   double max_reference_motion_mm = 2.5;
   // Look for a better set of references, and propose it?
   bool propose = true;

@@ -20,7 +20,7 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // References whose errors grow more than this many times on their way to the worst placed marker
 // are called ill-conditioned. Spectacles, or forehead, eyes and nose together, have about 1.
-constexpr double kLargestGain = 4;
+constexpr double kLargestGain = 3;
 // A set is proposed where the head then stands this much stiller, as a ratio and in mm.
 constexpr double kWorthwhileRatio = 0.85;
 constexpr double kWorthwhileMm = 0.1;
@@ -59,14 +59,13 @@ ReportTable ReferenceTable(const RigidFindings& findings) {
 // enough references, the share of each in the variation of their distances from one another.
 void WarnOfMovingReferences(const RigidFindings& findings, const StabilizeOptions& options,
                             StageReport& report) {
-  constexpr double kSigmasFrom5To95Percent = 3.2897;
   const ReferenceModel& model = findings.model;
   const double median_sigma_mm = MedianOf(model.sigmas_mm);
   std::vector<std::pair<double, std::string>> moving;
   for (int i = 0; i < model.size(); ++i) {
     const bool is_conspicuous = model.size() > 3 && model.sigmas_mm[i] > kConspicuousSigmaMm &&
                                 model.sigmas_mm[i] > kConspicuousRatio * median_sigma_mm;
-    double change_mm = is_conspicuous ? kSigmasFrom5To95Percent * model.sigmas_mm[i] : 0.0;
+    double change_mm = is_conspicuous ? kSigmasFrom10To90Percent * model.sigmas_mm[i] : 0.0;
     if (findings.search && findings.search->distance_change_mm[i] > options.max_reference_motion_mm)
       change_mm = std::max(change_mm, findings.search->distance_change_mm[i]);
     if (change_mm > 0) moving.emplace_back(change_mm, findings.tracks.names()[model.columns[i]]);

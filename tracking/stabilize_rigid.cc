@@ -55,7 +55,11 @@ Result<ReferenceModel> OwnShape(const StageTracks& tracks, const std::vector<int
 Result<ShapeComparison> AdoptGivenShape(const std::vector<std::string>& names,
                                         const HeadShape& given, double tolerance_mm,
                                         ReferenceModel& model) {
-  auto comparison = CompareWithShape(names, model.points_mm, given, tolerance_mm);
+  // References that wander by themselves cannot be expected nearer to their places than that.
+  constexpr double kWanderSigmas = 4;
+  auto comparison =
+      CompareWithShape(names, model.points_mm, given,
+                       std::max(tolerance_mm, kWanderSigmas * MedianOf(model.sigmas_mm)));
   if (!comparison) return comparison;
   for (int i = 0; i < model.size(); ++i) {
     const NamedPoint* point = given.Find(names[i]);
@@ -130,7 +134,9 @@ HeadPoseStatus StatusOf(const FrameAlignment& alignment, const StabilizeOptions&
   if (alignment.num_seen < 3) return HeadPoseStatus::kTooFewReferences;
   const double max_sigma_rad = options.max_rotation_sigma_deg * std::numbers::pi / 180;
   if (!(alignment.rotation_sigma_rad <= max_sigma_rad)) return HeadPoseStatus::kIllConditioned;
-  if (alignment.num_used < 3 || alignment.rms_mm > options.max_residual_mm)
+  // Three that are left after others were put aside cannot confirm one another.
+  const bool is_unconfirmed = alignment.num_used <= 3 && alignment.num_used < alignment.num_seen;
+  if (is_unconfirmed || alignment.rms_mm > options.max_residual_mm)
     return HeadPoseStatus::kLargeResidual;
   return HeadPoseStatus::kOk;
 }

@@ -252,6 +252,12 @@ Result<C3dLayout> FindC3dLayout(const C3dParameters& parameters, const std::stri
   layout.rate_hz = *rate_hz;
   const FrameRange frames = ChooseFrames(parameters, layout, warnings);
   constexpr std::int64_t kMostFrames = std::numeric_limits<int>::max() / 2;
+  if (frames.count == 0 && parameters.bytes().size() < layout.frame_bytes())
+    return Fail(fmt::format(
+        "{}: {} points and {} analog numbers a frame cannot be in a file of {} bytes: the header "
+        "is "
+        "damaged",
+        source_name, layout.num_points, layout.analog_per_frame, parameters.bytes().size()));
   layout.first_frame = static_cast<int>(std::clamp<std::int64_t>(frames.first, 0, kMostFrames));
   layout.num_frames = static_cast<int>(std::min(frames.count, kMostFrames));
   return layout;

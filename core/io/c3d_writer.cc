@@ -77,12 +77,15 @@ std::vector<int> SplitWords(std::int64_t value) {
 
 struct FrameNumbers {
   std::int64_t first;
-  std::int64_t last;  // first - 1 where there are no frames
+  int count;
+  std::int64_t last() const { return first + count - 1; }
 };
 
-FrameNumbers NumbersOf(const StageTracks& tracks) {
-  const std::int64_t first = std::max(tracks.first_frame(), 0);
-  return {first, first + tracks.num_frames() - 1};
+// A file counts its frames by their bytes: without points and channels there are none.
+FrameNumbers NumbersOf(const MarkerRecording& recording) {
+  const bool has_data = recording.tracks.num_markers() > 0 || !recording.analog.channels.empty();
+  return {std::max(recording.tracks.first_frame(), 0),
+          has_data ? recording.tracks.num_frames() : 0};
 }
 
 void WritePointGroup(const MarkerRecording& recording, float scale, int data_block,
@@ -93,9 +96,9 @@ void WritePointGroup(const MarkerRecording& recording, float scale, int data_blo
   writer.Add("SCALE", scale);
   writer.Add("RATE", static_cast<float>(tracks.rate_hz()));
   writer.Add("DATA_START", std::min(data_block, kMost16Bit));
-  writer.Add("FRAMES", std::min(tracks.num_frames(), kMost16Bit));
-  if (tracks.num_frames() > kMost16Bit)
-    writer.Add("LONG_FRAMES", static_cast<float>(tracks.num_frames()));
+  const int num_frames = NumbersOf(recording).count;
+  writer.Add("FRAMES", std::min(num_frames, kMost16Bit));
+  if (num_frames > kMost16Bit) writer.Add("LONG_FRAMES", static_cast<float>(num_frames));
   writer.Add("UNITS", "mm");
   writer.AddTextList("LABELS", LabelsToWrite(recording));
   if (!recording.descriptions.empty())
@@ -104,11 +107,11 @@ void WritePointGroup(const MarkerRecording& recording, float scale, int data_blo
 
 void WriteTrialGroups(const MarkerRecording& recording, bool mark_states_only,
                       C3dParameterWriter& writer) {
-  const FrameNumbers frames = NumbersOf(recording.tracks);
-  if (recording.tracks.num_frames() > 0) {
+  const FrameNumbers frames = NumbersOf(recording);
+  if (frames.count > 0) {
     writer.BeginGroup("TRIAL");
     writer.AddWords("ACTUAL_START_FIELD", SplitWords(frames.first), {2});
-    writer.AddWords("ACTUAL_END_FIELD", SplitWords(frames.last), {2});
+    writer.AddWords("ACTUAL_END_FIELD", SplitWords(frames.last()), {2});
   }
   std::vector<std::string> ignored_warnings;
   const std::string subject = NameMarkers(LabelsToWrite(recording), ignored_warnings).subject;
@@ -181,7 +184,7 @@ int AnalogPerFrame(const AnalogData& analog) {
 }
 
 void WriteHeader(const MarkerRecording& recording, float scale, int data_block, C3dOutput& out) {
-  const FrameNumbers frames = NumbersOf(recording.tracks);
+  const FrameNumbers frames = NumbersOf(recording);
   const auto limit = [](std::int64_t number) {
     return static_cast<int>(std::clamp<std::int64_t>(number, 0, kMost16Bit));
   };
@@ -190,7 +193,7 @@ void WriteHeader(const MarkerRecording& recording, float scale, int data_block, 
   out.U16(recording.tracks.num_markers());
   out.U16(AnalogPerFrame(recording.analog));
   out.U16(limit(frames.first));
-  out.U16(limit(frames.last));
+  out.U16(limit(frames.last()));
   out.U16(0);  // no gap was interpolated by this file's maker
   out.F32(scale);
   out.U16(data_block);

@@ -70,6 +70,9 @@ void AddC3dLosses(const MarkerRecording& recording, std::vector<std::string>& lo
   if (DecimalOf(static_cast<float>(tracks.rate_hz())) != tracks.rate_hz())
     losses.push_back(
         fmt::format("The rate of {} Hz is rounded to seven digits.", tracks.rate_hz()));
+  if (tracks.num_markers() == 0 && recording.analog.channels.empty() && tracks.num_frames() > 0)
+    losses.push_back(
+        fmt::format("{} frames without markers and channels are not kept.", tracks.num_frames()));
   if (tracks.first_frame() < 0)
     losses.push_back(fmt::format("The first frame's number ({}) becomes 0.", tracks.first_frame()));
   const bool has_wide_masks =

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "rig/io/rig_toml.h"
 #include "core/toml_reader.h"
+#include "rig/io/rig_toml.h"
 
 namespace articap {
 namespace {
@@ -35,6 +35,15 @@ int ReadSide(const TomlReader& reader) {
   return side == "left" ? 1 : side == "right" ? -1 : 0;
 }
 
+std::optional<ImportRecipe::MovedBy> ReadMovedBy(const TomlReader& reader) {
+  const auto table = reader.Table("moved_by");
+  if (!table) return std::nullopt;
+  table->AllowOnly({"target", "range_mm"});
+  const auto range_mm = ReadRange(*table, "range_mm");
+  if (!range_mm) table->Fault("range_mm", "is missing");
+  return ImportRecipe::MovedBy{table->Text("target"), range_mm.value_or(std::array{0.0, 0.0})};
+}
+
 ImportRecipe::Part ReadPart(const TomlReader& reader) {
   reader.AllowOnly({"name", "groups", "color", "plane_point_mm", "plane_normal"});
   ImportRecipe::Part part;
@@ -47,8 +56,8 @@ ImportRecipe::Part ReadPart(const TomlReader& reader) {
 }
 
 ImportRecipe::Region ReadRegion(const TomlReader& reader) {
-  reader.AllowOnly(
-      {"name", "parts", "outline_mm", "depth_mm", "facing", "side", "fill_from", "color"});
+  reader.AllowOnly({"name", "parts", "outline_mm", "depth_mm", "facing", "moved_by", "side",
+                    "fill_from", "color"});
   ImportRecipe::Region region;
   region.name = reader.Text("name");
   region.parts = reader.Texts("parts");
@@ -57,6 +66,7 @@ ImportRecipe::Region ReadRegion(const TomlReader& reader) {
     reader.Fault("outline_mm", "has fewer than three points");
   region.depth_mm = ReadRange(reader, "depth_mm");
   if (reader.Has("facing")) region.facing = reader.Vector("facing");
+  region.moved_by = ReadMovedBy(reader);
   region.side = ReadSide(reader);
   if (reader.Has("fill_from")) region.fill_from = reader.Integer("fill_from");
   region.color = ReadColor(reader);
@@ -65,15 +75,15 @@ ImportRecipe::Region ReadRegion(const TomlReader& reader) {
 
 ImportRecipe::TargetUse ReadTargetUse(const TomlReader& reader) {
   reader.AllowOnly(
-      {"target", "gain", "side", "side_blend_mm", "above_mm", "below_mm", "lateral_mm"});
+      {"target", "gain", "side", "side_blend_mm", "below_mm", "moved_by", "lateral_mm"});
   ImportRecipe::TargetUse use;
   use.target = reader.Text("target");
   use.gain = reader.Number("gain", 1.0);
   use.side = ReadSide(reader);
   use.side_blend_mm = reader.Number("side_blend_mm", use.side_blend_mm);
   if (!(use.side_blend_mm > 0)) reader.Fault("side_blend_mm", "is not positive");
-  if (reader.Has("above_mm")) use.above_mm = reader.Number("above_mm");
   if (reader.Has("below_mm")) use.below_mm = reader.Number("below_mm");
+  use.moved_by = ReadMovedBy(reader);
   use.lateral_mm = ReadRange(reader, "lateral_mm");
   return use;
 }

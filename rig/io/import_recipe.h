@@ -18,6 +18,12 @@ namespace articap {
 // rig/makehuman/hm08.toml. Vertex numbers are the file's own, from 0; positions are in the rig
 // frame.
 struct ImportRecipe {
+  // Vertices that a target moves by so much: tells the lips apart, which touch but part when the
+  // mouth opens.
+  struct MovedBy {
+    std::string target;
+    std::array<double, 2> range_mm = {0, 0};
+  };
   // Triangles of these groups whose corners all lie on the plane's positive side. The first rule
   // that fits takes a triangle; triangles that no rule takes are left out. Several rules may name
   // one part.
@@ -37,6 +43,7 @@ struct ImportRecipe {
     std::vector<Eigen::Vector2d> outline_mm;
     std::optional<std::array<double, 2>> depth_mm;  // range of z
     std::optional<Eigen::Vector3d> facing;          // the normal's half space
+    std::optional<MovedBy> moved_by;                // on average over the corners
     int side = 0;                                   // +1 the speaker's left alone, -1 the right
     std::optional<int> fill_from;
     std::optional<Eigen::Vector3f> color;  // of all its vertices
@@ -47,8 +54,8 @@ struct ImportRecipe {
     double gain = 1;
     int side = 0;               // +1 the speaker's left alone, -1 the right
     double side_blend_mm = 10;  // the left share goes from 0 to 1 between x = -blend and +blend
-    std::optional<double> above_mm;  // y of a cut between the lips
-    std::optional<double> below_mm;
+    std::optional<double> below_mm;  // nothing where y is larger
+    std::optional<MovedBy> moved_by;
     std::optional<std::array<double, 2>> lateral_mm;  // |x| up to where all, and from where nothing
   };
   struct Parameter {

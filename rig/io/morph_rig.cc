@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <map>
 #include <set>
 
 #include "rig/head_size.h"
@@ -56,7 +56,8 @@ class MorphRigBuilder {
     rig_.name = recipe_.name.empty() ? source_.name : recipe_.name;
     if (auto step = PlaceInRigFrame(); !step) return tl::unexpected(step.error());
     if (auto step = ChooseParts(); !step) return tl::unexpected(step.error());
-    if (auto step = AssignRegions(recipe_.regions, vertex_of_source_, rig_); !step)
+    if (auto step = MeasureWays(); !step) return tl::unexpected(step.error());
+    if (auto step = AssignRegions(recipe_.regions, vertex_of_source_, ways_mm_, rig_); !step)
       return tl::unexpected(step.error());
     if (auto step = PlaceLandmarks(); !step) return tl::unexpected(step.error());
     if (auto step = AddJaw(); !step) return tl::unexpected(step.error());
@@ -204,6 +205,23 @@ class MorphRigBuilder {
     return dense;
   }
 
+  // How far the targets move each vertex that the recipe tells vertices apart by.
+  Result<void> MeasureWays() {
+    std::set<std::string> names;
+    for (const ImportRecipe::Region& region : recipe_.regions)
+      if (region.moved_by) names.insert(region.moved_by->target);
+    for (const ImportRecipe::Parameter& parameter : recipe_.parameters)
+      for (const ImportRecipe::TargetUse& use : parameter.targets)
+        if (use.moved_by) names.insert(use.moved_by->target);
+    for (const std::string& name : names) {
+      const auto dense = DenseTarget(name);
+      if (!dense) return tl::unexpected(dense.error());
+      for (const Eigen::Vector3d& displacement_mm : *dense)
+        ways_mm_[name].push_back(displacement_mm.norm());
+    }
+    return {};
+  }
+
   // With r = (R(angle) - I)(p - pivot) the way a vertex would go if it turned with the jaw, and d
   // the way the target takes it, the weight is the w that makes w r nearest to d: d.r / (r.r +
   // e^2). The small length e keeps vertices near the pivot, which hardly move, at 0.
@@ -288,8 +306,9 @@ class MorphRigBuilder {
 
   Result<void> AddEveryTarget() {
     for (const MorphSource::Target& target : source_.targets) {
-      auto field = CombineTargets(
-          {{.target = target.name, .above_mm = {}, .below_mm = {}, .lateral_mm = {}}});
+      ImportRecipe::TargetUse use;
+      use.target = target.name;
+      auto field = CombineTargets({use});
       if (!field) return tl::unexpected(field.error());
       rig_.morph_targets.push_back({static_cast<int>(rig_.parameters.size()), std::move(*field)});
       rig_.parameters.push_back(
@@ -300,12 +319,16 @@ class MorphRigBuilder {
     return {};
   }
 
-  static double Mask(const ImportRecipe::TargetUse& use, const Eigen::Vector3d& position_mm) {
+  double Mask(const ImportRecipe::TargetUse& use, std::size_t vertex) const {
+    const Eigen::Vector3d& position_mm = rig_.mesh.vertices[vertex];
     double mask = 1;
+    if (use.moved_by) {
+      const double way_mm = ways_mm_.at(use.moved_by->target)[vertex];
+      if (way_mm < use.moved_by->range_mm[0] || way_mm >= use.moved_by->range_mm[1]) return 0;
+    }
     if (use.side != 0)
       mask *= SmoothStep(0.5 + 0.5 * use.side * position_mm.x() / use.side_blend_mm);
-    if (use.above_mm && position_mm.y() < *use.above_mm) mask = 0;
-    if (use.below_mm && position_mm.y() >= *use.below_mm) mask = 0;
+    if (use.below_mm && position_mm.y() >= *use.below_mm) return 0;
     if (use.lateral_mm)
       mask *= 1 - SmoothStep((std::abs(position_mm.x()) - (*use.lateral_mm)[0]) /
                              ((*use.lateral_mm)[1] - (*use.lateral_mm)[0]));
@@ -318,8 +341,7 @@ class MorphRigBuilder {
       const auto dense = DenseTarget(use.target);
       if (!dense) return tl::unexpected(dense.error());
       for (std::size_t i = 0; i < sum.size(); ++i)
-        if (!(*dense)[i].isZero(0))
-          sum[i] += use.gain * Mask(use, rig_.mesh.vertices[i]) * (*dense)[i];
+        if (!(*dense)[i].isZero(0)) sum[i] += use.gain * Mask(use, i) * (*dense)[i];
     }
     DisplacementField field;
     for (std::size_t i = 0; i < sum.size(); ++i)
@@ -371,6 +393,7 @@ class MorphRigBuilder {
   std::vector<int> source_of_vertex_;
   std::vector<int> group_of_vertex_;
   std::set<std::string> used_targets_;
+  std::map<std::string, std::vector<double>> ways_mm_;
   RigDefinition rig_;
 };
 

@@ -31,7 +31,10 @@ bool IsOneOf(const std::vector<std::string>& names, const std::string& name) {
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool Fits(const ImportRecipe::Region& rule, const RigDefinition& rig, std::size_t triangle) {
+using Ways = std::map<std::string, std::vector<double>>;
+
+bool Fits(const ImportRecipe::Region& rule, const Ways& ways_mm, const RigDefinition& rig,
+          std::size_t triangle) {
   if (!IsOneOf(rule.parts, rig.part_names[rig.triangle_part[triangle]])) return false;
   const Eigen::Vector3i& corners = rig.mesh.triangles[triangle];
   const Eigen::Vector3d& v1 = rig.mesh.vertices[corners[0]];
@@ -40,6 +43,11 @@ bool Fits(const ImportRecipe::Region& rule, const RigDefinition& rig, std::size_
   const Eigen::Vector3d center_mm = (v1 + v2 + v3) / 3;
   if (rule.side * center_mm.x() < 0) return false;
   if (rule.facing && (v2 - v1).cross(v3 - v1).dot(*rule.facing) <= 0) return false;
+  if (rule.moved_by) {
+    const std::vector<double>& way_mm = ways_mm.at(rule.moved_by->target);
+    const double mean_mm = (way_mm[corners[0]] + way_mm[corners[1]] + way_mm[corners[2]]) / 3;
+    if (mean_mm < rule.moved_by->range_mm[0] || mean_mm >= rule.moved_by->range_mm[1]) return false;
+  }
   if (rule.depth_mm && (center_mm.z() < (*rule.depth_mm)[0] || center_mm.z() > (*rule.depth_mm)[1]))
     return false;
   return rule.outline_mm.empty() ||
@@ -90,7 +98,8 @@ int IndexOfName(std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 Result<void> AssignRegions(const std::vector<ImportRecipe::Region>& rules,
-                           const std::vector<int>& vertex_of_source, RigDefinition& rig) {
+                           const std::vector<int>& vertex_of_source, const Ways& ways_mm,
+                           RigDefinition& rig) {
   std::vector<int> region_of(rig.mesh.triangles.size(), kUnassigned);
   for (const ImportRecipe::Region& rule : rules) {
     const int region = IndexOfName(rig.region_names, rule.name);
@@ -104,7 +113,7 @@ Result<void> AssignRegions(const std::vector<ImportRecipe::Region>& rules,
       Fill(rig.mesh, vertex_of_source[source], region, region_of);
     } else {
       for (std::size_t i = 0; i < region_of.size(); ++i)
-        if (region_of[i] == kUnassigned && Fits(rule, rig, i)) region_of[i] = region;
+        if (region_of[i] == kUnassigned && Fits(rule, ways_mm, rig, i)) region_of[i] = region;
     }
     if (rule.color)
       for (std::size_t i = 0; i < region_of.size(); ++i)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "rig/face_rig.h"
@@ -12,6 +14,8 @@ namespace articap {
 // no rule takes is "other". `vertex_of_source`: where the file's vertices went, -1 for those left
 // out.
 Result<void> AssignRegions(const std::vector<ImportRecipe::Region>& rules,
-                           const std::vector<int>& vertex_of_source, RigDefinition& rig);
+                           const std::vector<int>& vertex_of_source,
+                           const std::map<std::string, std::vector<double>>& ways_mm,
+                           RigDefinition& rig);
 
 }  // namespace articap

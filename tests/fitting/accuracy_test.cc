@@ -6,8 +6,10 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "core/head_pose.h"
+#include "core/marker_set.h"
 #include "fitting/bind.h"
 #include "fitting/fit.h"
 #include "rig/default_head/default_head.h"
@@ -26,146 +28,186 @@ const FaceRig& DefaultHead() {
   return rig;
 }
 
-MarkerSet ThirtyMarkers() {
-  return ReadMarkerSet(SourceFolder() / "maps" / "spectacles30.toml").value();
+// Thirty markers on the face, five on the spectacles.
+const MarkerSet& Markers() {
+  static const MarkerSet set = ReadMarkerSet(SourceFolder() / "maps" / "spectacles30.toml").value();
+  return set;
 }
 
-SyntheticTake Speak(const std::vector<std::string>& identity, int seed) {
-  SyntheticTakeOptions options;
-  options.seed = seed;
-  options.speech.num_sentences = 20;
-  options.identity = identity;
-  options.identity_spread = 0;
-  return SynthesizeTake(DefaultHead(), ThirtyMarkers(), options).value();
-}
-
-// The head's movement is taken out with the true pose: what stabilisation adds is its own test's.
-HeadTracks InHead(const SyntheticTake& take, const MarkerRecording& markers) {
-  return ToHead(markers.tracks, take.true_pose);
-}
-
-struct FitResult {
-  Binding binding;
-  ParameterTrack found;
+// A speaker and a noisy recording of eight sentences.
+struct Session {
+  SyntheticTake take;
+  DisturbedRecording recorded;
+  HeadTracks tracks;  // with the true head pose: what stabilisation adds is its own tests' matter
 };
 
-// Binds to the first second, at rest, of the noisy recording itself, and fits the whole of it.
-FitResult BindAndFit(const SyntheticTake& take, const MarkerRecording& markers,
-                     const BindOptions& bind_options) {
-  const HeadTracks tracks = InHead(take, markers);
-  const auto bound = Bind(tracks, {}, take.marker_set, DefaultHead(), bind_options);
-  if (!bound) throw std::runtime_error(bound.error().message);
-  const auto fitted = Fit(tracks, bound->output, DefaultHead(), {});
-  if (!fitted) throw std::runtime_error(fitted.error().message);
-  return {bound->output, fitted->output.parameters};
-}
+struct SessionOptions {
+  int seed = 1;
+  std::vector<std::string> identity = {};
+  double misplacement_mm = 0;
+  bool faulty = false;  // 20 % dropouts and 2 % outliers of 10 mm
+};
 
-BindOptions OwnHead() {
-  BindOptions options;
-  options.frames = "1:60";
-  options.fit_identity = false;
-  return options;
-}
-
-bool IsAtRest(const SyntheticTake& take, int frame) {
-  return take.truth.values.row(frame).isZero(0);
-}
-
-// Root mean square over the frames of speech, of each parameter.
-Eigen::VectorXd RmsErrors(const SyntheticTake& take, const ParameterTrack& found) {
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(take.truth.num_parameters());
-  int count = 0;
-  for (int frame = 0; frame < take.truth.num_frames(); ++frame) {
-    if (IsAtRest(take, frame)) continue;
-    squares += (found.values.row(frame) - take.truth.values.row(frame)).cwiseAbs2().transpose();
-    ++count;
-  }
-  return (squares / count).cwiseSqrt();
-}
-
-// The Cramer-Rao bound of the same figure: of all frames of speech the mean of
-// diag((J^T J)^-1) sigma^2, with J the Jacobian, at the truth, of the face markers that survive:
-// seen and no outliers.
-Eigen::VectorXd CramerRaoBounds(const SyntheticTake& take, const DisturbedRecording& recorded) {
-  std::vector<VirtualMarker> face;
-  std::vector<int> column;
-  for (std::size_t i = 0; i < take.true_attachments.size(); ++i)
-    if (take.marker_set.markers[i].face) {
-      face.push_back(take.true_attachments[i]);
-      column.push_back(static_cast<int>(i));
-    }
-  const FaceRig speaker = DefaultHead().WithIdentity(take.identity_values());
-  const VirtualMarkerEvaluator evaluator(speaker, face);
-  const int num_parameters = take.truth.num_parameters();
-  Eigen::VectorXd variances = Eigen::VectorXd::Zero(num_parameters);
-  int count = 0;
-  for (int frame = 0; frame < take.truth.num_frames(); ++frame) {
-    if (IsAtRest(take, frame)) continue;
-    const Eigen::VectorXd truth = take.truth.values.row(frame);
-    Eigen::MatrixXd jacobian =
-        evaluator.DenseJacobian({truth.data(), static_cast<std::size_t>(truth.size())});
-    for (std::size_t i = 0; i < face.size(); ++i)
-      if (recorded.fault(frame, column[i]) != SampleFault::kNone)
-        jacobian.middleRows<3>(3 * static_cast<int>(i)).setZero();
-    const Eigen::MatrixXd information = jacobian.transpose() * jacobian / (kNoiseMm * kNoiseMm);
-    variances += information.ldlt()
-                     .solve(Eigen::MatrixXd::Identity(num_parameters, num_parameters))
-                     .diagonal();
-    ++count;
-  }
-  return (variances / count).cwiseSqrt();
-}
-
-// The RMS error of every parameter stays within `factor` of the bound.
-void ExpectWithin(double factor, const SyntheticTake& take, const DisturbedRecording& recorded,
-                  const ParameterTrack& found) {
-  const Eigen::VectorXd errors = RmsErrors(take, found);
-  const Eigen::VectorXd bounds = CramerRaoBounds(take, recorded);
-  for (int i = 0; i < errors.size(); ++i) {
-    std::printf("  %-28s RMS error %.5f %-3s  bound %.5f  ratio %.3f\n",
-                take.truth.names[i].c_str(), errors[i], take.truth.units[i].c_str(), bounds[i],
-                errors[i] / bounds[i]);
-    EXPECT_LE(errors[i], factor * bounds[i]) << take.truth.names[i];
-  }
-}
-
-TEST(AccuracyTest, OwnHeadComesNearTheCramerRaoBound) {
-  const SyntheticTake take = Speak({}, 11);
+Session Record(const SessionOptions& wanted) {
+  SyntheticTakeOptions options;
+  options.seed = wanted.seed;
+  options.speech.num_sentences = 8;
+  options.identity = wanted.identity;
+  options.identity_spread = 0;
+  options.misplacement_mm = wanted.misplacement_mm;
   SyntheticNoiseOptions noise;
   noise.noise_mm = kNoiseMm;
-  const DisturbedRecording recorded = AddNoise(take.markers, noise, 11);
-  ExpectWithin(1.15, take, recorded, BindAndFit(take, recorded.markers, OwnHead()).found);
+  if (wanted.faulty) {
+    noise.dropout = 0.2;
+    noise.outliers = 0.02;
+    noise.outlier_mm = 10;
+  }
+  SyntheticTake take = SynthesizeTake(DefaultHead(), Markers(), options).value();
+  DisturbedRecording recorded = AddNoise(take.markers, noise, wanted.seed);
+  HeadTracks tracks = ToHead(recorded.markers.tracks, take.true_pose);
+  return {std::move(take), std::move(recorded), std::move(tracks)};
+}
+
+template <class T>
+T OrThrow(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return *std::move(result);
+}
+
+// Binds to the first second of the noisy recording itself, at rest, and fits all of it.
+ParameterTrack BindAndFit(const Session& session, bool fit_identity) {
+  BindOptions options;
+  options.frames = "1:60";
+  options.fit_identity = fit_identity;
+  const Binding binding =
+      OrThrow(Bind(session.tracks, {}, session.take.marker_set, DefaultHead(), options)).output;
+  return OrThrow(Fit(session.tracks, binding, DefaultHead(), {})).output.parameters;
+}
+
+// The variances that Cramer and Rao allow: diag((J^T J)^-1) sigma^2, with J the Jacobian, at the
+// truth, of the face markers that survive: seen, and no outliers.
+class CramerRao {
+ public:
+  explicit CramerRao(const Session& session)
+      : session_(session),
+        evaluator_(DefaultHead().WithIdentity(session.take.identity_values()),
+                   FaceAttachments(session.take)) {
+    for (std::size_t i = 0; i < session.take.marker_set.markers.size(); ++i)
+      if (session.take.marker_set.markers[i].face) columns_.push_back(static_cast<int>(i));
+  }
+
+  Eigen::VectorXd VariancesOf(int frame) const {
+    const Eigen::VectorXd truth = session_.take.truth.values.row(frame);
+    Eigen::MatrixXd jacobian =
+        evaluator_.DenseJacobian({truth.data(), static_cast<std::size_t>(truth.size())});
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (session_.recorded.fault(frame, columns_[i]) != SampleFault::kNone)
+        jacobian.middleRows<3>(3 * static_cast<int>(i)).setZero();
+    const Eigen::MatrixXd information = jacobian.transpose() * jacobian / (kNoiseMm * kNoiseMm);
+    return information.ldlt()
+        .solve(Eigen::MatrixXd::Identity(truth.size(), truth.size()))
+        .diagonal();
+  }
+
+ private:
+  static std::vector<VirtualMarker> FaceAttachments(const SyntheticTake& take) {
+    std::vector<VirtualMarker> face;
+    for (std::size_t i = 0; i < take.true_attachments.size(); ++i)
+      if (take.marker_set.markers[i].face) face.push_back(take.true_attachments[i]);
+    return face;
+  }
+
+  const Session& session_;
+  VirtualMarkerEvaluator evaluator_;
+  std::vector<int> columns_;  // of the face markers in the recording
+};
+
+// Squared errors and variances of each parameter, summed over the frames that count: those of
+// speech in which the markers that survive determine every parameter to a tenth of its range.
+struct Accuracy {
+  Eigen::VectorXd squared_errors = Eigen::VectorXd::Zero(DefaultHead().num_parameters());
+  Eigen::VectorXd variances = squared_errors;
+  int num_frames = 0;
+  int num_left_out = 0;
+
+  void Add(const Session& session, const ParameterTrack& found) {
+    const ParameterTrack& truth = session.take.truth;
+    const CramerRao bound(session);
+    for (int frame = 0; frame < truth.num_frames(); ++frame) {
+      if (truth.values.row(frame).isZero(0)) continue;
+      const Eigen::VectorXd frame_variances = bound.VariancesOf(frame);
+      if (!AreDetermined(frame_variances)) {
+        ++num_left_out;
+        continue;
+      }
+      variances += frame_variances;
+      squared_errors += (found.values.row(frame) - truth.values.row(frame)).cwiseAbs2().transpose();
+      ++num_frames;
+    }
+  }
+
+  // The RMS error of every parameter stays within `factor` of the bound.
+  void ExpectWithin(double factor) const {
+    std::printf("  %d frames; %d left out, whose surviving markers determine too little\n",
+                num_frames, num_left_out);
+    for (int i = 0; i < variances.size(); ++i) {
+      const std::string& name = DefaultHead().definition().parameters[i].name;
+      const double rms = std::sqrt(squared_errors[i] / num_frames);
+      const double least = std::sqrt(variances[i] / num_frames);
+      std::printf("  %-28s RMS error %.5f, bound %.5f, ratio %.3f\n", name.c_str(), rms, least,
+                  rms / least);
+      EXPECT_LE(rms, factor * least) << name;
+    }
+    EXPECT_LT(num_left_out, 0.05 * num_frames);
+  }
+
+ private:
+  static bool AreDetermined(const Eigen::VectorXd& variances) {
+    for (int i = 0; i < variances.size(); ++i) {
+      const RigParameter& range = DefaultHead().definition().parameters[i];
+      if (!(std::sqrt(variances[i]) <= 0.1 * (range.max - range.min))) return false;
+    }
+    return true;
+  }
+};
+
+// Several takes, because the error of a binding is one draw for all frames of its take.
+Accuracy OverTakes(SessionOptions options) {
+  Accuracy accuracy;
+  for (options.seed = 11; options.seed < 17; ++options.seed) {
+    const Session session = Record(options);
+    accuracy.Add(session, BindAndFit(session, false));
+  }
+  return accuracy;
+}
+
+// The spatial median of three-dimensional normal noise, which the sum of distances comes down to,
+// reaches 1.085 of the bound at best (Brown 1983).
+TEST(AccuracyTest, OwnHeadComesNearTheCramerRaoBound) { OverTakes({}).ExpectWithin(1.15); }
+
+TEST(AccuracyTest, MarkersBesideTheirLandmarksCostLittle) {
+  OverTakes({.misplacement_mm = 0.5}).ExpectWithin(1.25);
 }
 
 TEST(AccuracyTest, DropoutsAndOutliersCostLittle) {
-  const SyntheticTake take = Speak({}, 12);
-  SyntheticNoiseOptions noise;
-  noise.noise_mm = kNoiseMm;
-  noise.dropout = 0.2;
-  noise.outliers = 0.02;
-  noise.outlier_mm = 10;
-  const DisturbedRecording recorded = AddNoise(take.markers, noise, 12);
-  ExpectWithin(1.3, take, recorded, BindAndFit(take, recorded.markers, OwnHead()).found);
+  OverTakes({.misplacement_mm = 0.5, .faulty = true}).ExpectWithin(1.3);
 }
 
 TEST(AccuracyTest, AnotherIdentityKeepsTheMovements) {
-  const SyntheticTake take =
-      Speak({"face_width=0.08", "jaw_length=0.10", "lip_thickness=0.30"}, 13);
-  SyntheticNoiseOptions noise;
-  noise.noise_mm = kNoiseMm;
-  const DisturbedRecording recorded = AddNoise(take.markers, noise, 13);
-  BindOptions options;
-  options.frames = "1:60";
-  const ParameterTrack found = BindAndFit(take, recorded.markers, options).found;
-  const Eigen::VectorXd errors = RmsErrors(take, found);
-  for (int i = 0; i < take.truth.num_parameters(); ++i) {
-    const Eigen::VectorXd x = take.truth.values.col(i), y = found.values.col(i);
+  const Session session =
+      Record({.seed = 13,
+              .identity = {"face_width=0.08", "jaw_length=0.10", "lip_thickness=0.30"},
+              .misplacement_mm = 0.5});
+  const ParameterTrack found = BindAndFit(session, true);
+  const ParameterTrack& truth = session.take.truth;
+  for (int i = 0; i < truth.num_parameters(); ++i) {
+    const Eigen::VectorXd x = truth.values.col(i), y = found.values.col(i);
     const Eigen::VectorXd dx = x.array() - x.mean(), dy = y.array() - y.mean();
     const double correlation = dx.dot(dy) / (dx.norm() * dy.norm());
-    std::printf("  %-28s correlation %.4f  bias %+.4f %-3s  gain %.3f  RMS error %.4f\n",
-                take.truth.names[i].c_str(), correlation, y.mean() - x.mean(),
-                take.truth.units[i].c_str(), dx.dot(dy) / dx.squaredNorm(), errors[i]);
-    EXPECT_GE(correlation, 0.97) << take.truth.names[i];
+    std::printf("  %-28s correlation %.4f, bias %+.4f %s, gain %.3f\n", truth.names[i].c_str(),
+                correlation, y.mean() - x.mean(), truth.units[i].c_str(),
+                dx.dot(dy) / dx.squaredNorm());
+    EXPECT_GE(correlation, 0.97) << truth.names[i];
   }
 }
 

@@ -33,9 +33,9 @@ std::vector<double> Unpacked(const Json& packed) {
   std::vector<double> values;
   for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
     const auto code = static_cast<std::int16_t>(bytes[i] | bytes[i + 1] << 8);
-    values.push_back(code == -32768 ? kNaN
-                                    : packed["offset"].get<double>() +
-                                          packed["scale"].get<double>() * code);
+    values.push_back(code == -32768
+                         ? kNaN
+                         : packed["offset"].get<double>() + packed["scale"].get<double>() * code);
   }
   return values;
 }

@@ -46,7 +46,12 @@ StageReport MakeReport(const std::string& stage, const std::string& verdict) {
   report.stage = stage;
   report.verdict = verdict;
   report.figures = {{"frames", 1590}, {"median_residual_mm", 0.4312}, {"largest_turn_deg", 12.5}};
-  report.texts = {{"mode", "rigid"}};
+  report.texts = {
+      {"mode", "rigid"},
+      {"references", "ForeHead_M,ForeHead_L,ForeHead_R,Leye_Inside,Reye_Inside,NoseTop,NoseHead"},
+      {"axes", "y from Chin to NoseTop, x from Reye_Outside to Leye_Outside"}};
+  for (int i = 1; i <= 12; ++i)
+    report.figures.emplace_back("a_figure_of_some_length_" + std::to_string(i) + "_mm", i / 7.0);
   report.tables = {{"references", {"rms_mm", "largest_mm"}, {{"brow", {0.21, 0.88}}}}};
   report.options = {{"max_residual_mm", "2"}, {"robust", "true"}};
   return report;
@@ -68,8 +73,7 @@ FaceRig MakeEggRig() {
                     {"jaw_shift", ParameterUnit::kMillimetre, -6, 6, "moves the jaw left", ""}};
   rig.weight_maps = {WeightsAround(rig.mesh, "jaw", {0, -70, 60}, 55),
                      WeightsAround(rig.mesh, "mouth", {0, -30, 80}, 22)};
-  rig.transforms = {
-      {WeightedTransform::Kind::kTranslate, 1, 1, Eigen::Vector3d(0, 0, 1), -1}};
+  rig.transforms = {{WeightedTransform::Kind::kTranslate, 1, 1, Eigen::Vector3d(0, 0, 1), -1}};
   rig.landmarks = {{"nose_tip", 36 * 13}, {"chin", 36 * 22}, {"upper_lip_center", 36 * 16}};
   for (int column : {3, 33}) rig.landmarks.push_back({"corner", 36 * 17 + column});
   rig.landmarks[3].name = "left_mouth_corner";
@@ -101,8 +105,8 @@ SampleTake MakeSampleTake(const FaceRig& rig, int num_frames, double rate_hz) {
   }
   std::vector<Landmark> places;
   for (const Landmark& landmark : definition.landmarks)
-    if (landmark.name.find("pivot") == std::string::npos &&
-        landmark.name.find("center") != 4 && places.size() < 36)
+    if (landmark.name.find("pivot") == std::string::npos && landmark.name.find("center") != 4 &&
+        places.size() < 36)
       places.push_back(landmark);
   std::vector<std::string> names;
   for (const Landmark& place : places) names.push_back(place.name);
@@ -127,15 +131,15 @@ SampleTake MakeSampleTake(const FaceRig& rig, int num_frames, double rate_hz) {
       pose[i] = gesture > 0 ? gesture * parameter.max : -gesture * 0.8 * parameter.min;
     }
     HeadPose head;
-    head.head_from_stage.rotation = Eigen::AngleAxisd(
-        0.12 * std::sin(time_s), Eigen::Vector3d(0.3, 1, 0.1).normalized());
+    head.head_from_stage.rotation =
+        Eigen::AngleAxisd(0.12 * std::sin(time_s), Eigen::Vector3d(0.3, 1, 0.1).normalized());
     head.head_from_stage.translation_mm = {4 * std::sin(0.7 * time_s), 2 * std::cos(time_s), 3};
     head.residual_mm = 0.2 + 0.05 * std::abs(normal(random));
     const bool is_lost = frame % 400 >= 250 && frame % 400 < 262;
     if (is_lost) head = {{}, kNaN, HeadPoseStatus::kTooFewReferences};
     take.head_pose.poses.push_back(head);
     track.phones.emplace_back(phones[(frame / 7) % 10]);
-    track.statuses.push_back(is_lost           ? FitStatus::kNoHeadPose
+    track.statuses.push_back(is_lost          ? FitStatus::kNoHeadPose
                              : frame % 97 < 3 ? FitStatus::kWeak
                                               : FitStatus::kOk);
     if (is_lost) {
@@ -153,8 +157,8 @@ SampleTake MakeSampleTake(const FaceRig& rig, int num_frames, double rate_hz) {
     for (std::size_t k = 0; k < places.size(); ++k) {
       const int marker = static_cast<int>(k);
       const Eigen::Vector3d& q = vertices[places[k].vertex];
-      const double sigma_mm = 0.15 + 0.04 * static_cast<double>(k % 9) +
-                              (k % 11 == 3 && frame % 300 < 40 ? 1.5 : 0);
+      const double sigma_mm =
+          0.15 + 0.04 * static_cast<double>(k % 9) + (k % 11 == 3 && frame % 300 < 40 ? 1.5 : 0);
       const Eigen::Vector3d p =
           q + sigma_mm * Eigen::Vector3d(normal(random), normal(random), normal(random));
       take.virtual_markers.Set(frame, marker, q);

@@ -7,7 +7,7 @@ export class Clock {
     this.take = take;
     this.window = window;  // {first, count} or null
     this.frame = window ? window.first : 0;
-    this.view = this.wholeView();
+    this.view = this.firstView();
     this.listeners = {frame: [], view: [], marker: []};
     this.marker = null;
   }
@@ -21,6 +21,14 @@ export class Clock {
   windowView() { return this.viewOf(this.window.first, this.window.count); }
   viewOf(first, count) {
     return [this.timeOf(first - 0.5), this.timeOf(first + Math.max(count, 2) - 0.5)];
+  }
+
+  /** The whole take, unless it is so long that its curves would melt into a block. */
+  firstView() {
+    const kLongestReadable_s = 60;
+    const {num_frames, rate_hz} = this.take;
+    if (num_frames <= kLongestReadable_s * rate_hz) return this.wholeView();
+    return this.viewOf(this.window ? this.window.first : 0, Math.round(kLongestReadable_s / 2 * rate_hz));
   }
 
   on(event, listener) { this.listeners[event].push(listener); }

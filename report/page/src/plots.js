@@ -39,7 +39,9 @@ export class PlotRow {
     this.times = pointTimes(clock, series[0].low.length, framesPerPoint);
     this.dataExtent = extentOf(...series.flatMap(({low, high}) => [low, high])) ?? [0, 1];
     this.showsRange = false;
-    this.decimals = decimalsFor(this.dataExtent[1] - this.dataExtent[0]);
+    // A parameter that is held shows no noise of a billionth.
+    this.leastSpan = range ? 0.04 * (range[1] - range[0]) : 1e-3;
+    this.decimals = decimalsFor(Math.max(this.dataExtent[1] - this.dataExtent[0], this.leastSpan));
     this.value = element('div', {class: 'value'});
     this.label = element('div', {class: 'label', title: title ?? ''},
         element('div', {class: 'name'}, name), this.value);
@@ -103,7 +105,8 @@ export class PlotRow {
       }
       const line = {stroke, width: 1.35, dash, points: {show: false}};
       if (high !== low) {
-        bands.push({series: [data.length, data.length + 1], fill: stroke});
+        // What the frames between did is somewhere in here.
+        bands.push({series: [data.length, data.length + 1], fill: `${stroke}90`});
         data.push(withGaps(high), withGaps(low));
         series.push(line, line);
       } else {
@@ -121,7 +124,7 @@ export class PlotRow {
       high = Math.max(high, this.range[1]);
     }
     if (this.fromZero) low = Math.min(0, low);
-    const margin = Math.max(0.08 * (high - low), 1e-6);
+    const margin = Math.max(0.08 * (high - low), (this.leastSpan - (high - low)) / 2);
     return [this.fromZero ? low : low - margin, high + margin];
   }
 

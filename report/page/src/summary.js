@@ -39,19 +39,34 @@ export function showStages(stages) {
   document.getElementById('stages').append(...stages.map(stageCard));
 }
 
+const kFiguresShown = 8;
+
+/** A list of [name, text]; long texts take a line of their own. */
+function figureList(entries) {
+  const kLongest = 26;
+  return element('dl', {class: 'figures'}, ...entries.flatMap(([name, text]) => {
+    const attributes = text.length > kLongest ? {class: 'long'} : {};
+    return [element('dt', attributes, name), element('dd', attributes, text)];
+  }));
+}
+
 function stageCard({stage, usable, verdict, figures, texts, tables, options}) {
-  const list = element('dl', {class: 'figures'});
-  for (const {name, value} of texts) list.append(element('dt', {}, name.replaceAll('_', ' ')), element('dd', {}, value));
+  const entries = texts.filter(({value}) => value !== '').map(({name, value}) => [name.replaceAll('_', ' '), value]);
   for (const {name, value} of figures) {
     const {label, unit} = splitUnit(name);
-    list.append(element('dt', {}, label), element('dd', {}, withUnit(formatNumber(value), value === null ? '' : unit)));
+    entries.push([label, withUnit(formatNumber(value), value === null ? '' : unit)]);
   }
   const card = element('article', {class: 'card stage-card'},
       element('header', {}, element('h2', {}, stage),
               element('span', {class: `mark ${usable ? 'good' : 'bad'}`}, usable ? '✓ usable' : '✗ not usable')),
-      element('p', {class: 'says'}, verdict), list);
+      element('p', {class: 'says'}, verdict), figureList(entries.slice(0, kFiguresShown)));
+  if (entries.length > kFiguresShown)
+    card.append(element('details', {}, element('summary', {}, `${entries.length - kFiguresShown} more figures`),
+                        figureList(entries.slice(kFiguresShown))));
   for (const table of tables) if (table.rows.length) card.append(tableDetails(table));
-  if (options.length) card.append(optionDetails(options));
+  if (options.length)
+    card.append(element('details', {}, element('summary', {}, 'options used'),
+                        figureList(options.map(({name, value}) => [name, value === '' ? '–' : value]))));
   return card;
 }
 
@@ -64,10 +79,4 @@ function tableDetails({name, columns, rows}) {
       ...values.map((value) => element('td', {}, formatNumber(value)))));
   return element('details', {}, element('summary', {}, `${name.replaceAll('_', ' ')} (${rows.length})`),
                  element('div', {class: 'scroll'}, element('table', {}, head, ...body)));
-}
-
-function optionDetails(options) {
-  return element('details', {}, element('summary', {}, 'options used'),
-      element('dl', {class: 'figures'}, ...options.flatMap(({name, value}) =>
-          [element('dt', {}, name), element('dd', {}, value === '' ? '–' : value)])));
 }

@@ -2,7 +2,7 @@
 // Names, numbers and elements as people read them.
 
 const kUnits = {
-  mm: 'mm', deg: '°', rad: 'rad', hz: 'Hz', s: 's', ms: 'ms', us: 'µs', ns: 'ns', px: 'px', percent: '%',
+  mm: 'mm', deg: '°', rad: 'rad', hz: 'Hz', s: 's', ms: 'ms', us: 'µs', ns: 'ns', px: 'px', percent: '%', '%': '%',
 };
 
 /** "median_residual_mm" -> {label: "median residual", unit: "mm"} */
