@@ -15,13 +15,26 @@ Result<FitOutcome> FitStabilized(const Take& take, Stabilized stabilized, Bindin
                                  const FrameRange& binding_frames,
                                  std::vector<StageReport> reports) {
   const HeadTracks& tracks = stabilized.tracks;
-  auto fit = WithProgress(fmt::format("fitting {} frames", tracks.num_frames()),
-                          [&] { return Fit(tracks, binding, rig, options.fit, binding_frames); });
+  auto fit =
+      WithProgress(fmt::format("fitting {} frames", tracks.num_frames()), [&](Progress& progress) {
+        return Fit(tracks, binding, rig, options.fit, binding_frames,
+                   [&progress](double part) { progress.SetPart(part); });
+      });
   if (!fit) return tl::unexpected(fit.error());
   reports.push_back(std::move(fit->report));
   return FitOutcome{take.path.stem().string(),       std::move(binding),
                     std::move(stabilized.head_pose), std::move(stabilized.head_shape),
                     std::move(fit->output),          std::move(reports)};
+}
+
+// The head references, and besides them every marker of the reference pose: those on the skull or
+// the nose are witnesses by which the stabilisation finds spectacles that were re-seated.
+std::optional<HeadShape> SharedShape(const Binding& binding) {
+  if (binding.head_shape.points.empty()) return std::nullopt;
+  HeadShape shape = binding.head_shape;
+  for (const NamedPoint& point : binding.reference_pose.points)
+    if (shape.Find(point.name) == nullptr) shape.points.push_back(point);
+  return shape;
 }
 
 }  // namespace
@@ -42,9 +55,8 @@ Result<BoundReference> BindTake(const Take& reference, const MarkerSet& set, con
 
 Result<FitOutcome> FitBoundTake(const Take& take, const Binding& binding, const FaceRig& rig,
                                 const PipelineOptions& options) {
-  std::optional<HeadShape> shape;
-  if (!binding.head_shape.points.empty()) shape = binding.head_shape;
-  auto stabilized = StabilizeTake(take, binding.marker_set, shape, options.stabilize);
+  auto stabilized =
+      StabilizeTake(take, binding.marker_set, SharedShape(binding), options.stabilize);
   if (!stabilized) return tl::unexpected(stabilized.error());
   std::vector<StageReport> reports = {take.report, stabilized->report};
   return FitStabilized(take, std::move(stabilized->output), binding, rig, options, {},

@@ -30,7 +30,11 @@ void Progress::Show() {
   std::unique_lock lock(mutex_);
   while (!ended_.wait_for(lock, kStep, [this] { return done_; })) {
     ++elapsed_s;
-    fmt::print(stderr, "\r{} ... {} s", what_, elapsed_s);
+    const double part = part_;
+    if (part > 0)
+      fmt::print(stderr, "\r{} ... {:.0f} %, {} s", what_, 100 * part, elapsed_s);
+    else
+      fmt::print(stderr, "\r{} ... {} s", what_, elapsed_s);
     std::fflush(stderr);
   }
   if (elapsed_s > 0) fmt::print(stderr, "\r\033[K");

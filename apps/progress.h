@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <type_traits>
 
 namespace articap {
 
@@ -19,21 +21,28 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  // How much is done, 0 to 1, where it is known. From any thread.
+  void SetPart(double part) { part_ = part; }
+
  private:
   void Show();
 
   std::string what_;
+  std::atomic<double> part_ = 0;
   std::mutex mutex_;
   std::condition_variable ended_;
   bool done_ = false;
   std::thread thread_;
 };
 
-// The result of work(), with progress shown meanwhile.
+// The result of work() or work(progress), with progress shown meanwhile.
 template <class Work>
 auto WithProgress(const std::string& what, const Work& work) {
-  const Progress progress(what);
-  return work();
+  Progress progress(what);
+  if constexpr (std::is_invocable_v<Work, Progress&>)
+    return work(progress);
+  else
+    return work();
 }
 
 }  // namespace articap

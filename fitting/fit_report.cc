@@ -9,6 +9,8 @@
 #include <map>
 #include <numbers>
 
+#include "fitting/displaced_markers.h"
+
 namespace articap {
 namespace {
 
@@ -144,6 +146,12 @@ void DescribeFit(const ShapeFit& fit, const FaceRig& rig, const std::vector<bool
   report->figures.emplace_back("explained_variance_frames", explained.num_frames);
   report->tables.push_back(ParameterTable(fit, rig, determined, report));
   report->tables.push_back(ResidualTable(fit, explained));
+  for (const DisplacedMarker& displaced : FindDisplacedMarkers(fit))
+    report->warnings.push_back(fmt::format(
+        "{} lies {:.1f} mm (of the rig) from where the binding has it, in the same direction all "
+        "through the take: glued elsewhere, or carrying another marker's name? Bind anew, or leave "
+        "it out",
+        displaced.name, displaced.distance_mm));
 }
 
 }  // namespace articap

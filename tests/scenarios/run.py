@@ -20,6 +20,7 @@ A scenario is a file of
                                         # {data} the folder of real data
     exit_code = 1                       # default 0
     stdout = ["every text that must appear"]
+    warnings = [["chin", "glued"]]      # for each list a warning that says all of it
     stderr = ["take.csv:3:"]
     not_stderr = ["texts that must not"]
     files = ["out.trc"]                 # all files that the step makes; none where it is left out
@@ -87,6 +88,13 @@ def check_fragments(what, text, wanted, unwanted):
             raise Failure(f"{what} must not say {fragment!r}:\n{text}")
 
 
+def check_warnings(stdout, wanted):
+    lines = [line for line in stdout.split("\n") if line.strip().startswith("warning: ")]
+    for fragments in wanted:
+        if not any(all(fragment in line for fragment in fragments) for line in lines):
+            raise Failure(f"no warning says {fragments}; there are\n" + "\n".join(lines))
+
+
 def check_keys(path, keys):
     document = json.loads(path.read_text())
     for key in keys:
@@ -113,6 +121,7 @@ def run_step(articap, step, folder):
     if "a mistake in articap itself" in stderr:
         raise Failure(f"reports a mistake of its own\n{said}")
     check_fragments("stdout", stdout, step.get("stdout", []), step.get("not_stdout", []))
+    check_warnings(stdout, step.get("warnings", []))
     check_fragments("stderr", stderr, step.get("stderr", []), step.get("not_stderr", []))
     after = files_in(folder)
     made = sorted(name for name in after if after[name] != before.get(name))
