@@ -254,6 +254,7 @@ class MorphRigBuilder {
     JawJoint joint;
     joint.weight_map = 0;
     joint.pivot_vertex = static_cast<int>(rig_.mesh.vertices.size());
+    rig_.landmarks.push_back({"jaw_pivot", joint.pivot_vertex});
     rig_.mesh.vertices.push_back(jaw.pivot_mm);
     rig_.colors.push_back(kDefaultColor);
     rig_.weight_maps.push_back(std::move(map));
