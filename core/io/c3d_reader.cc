@@ -190,7 +190,7 @@ std::vector<MarkerEvent> ReadEventGroup(const C3dParameters& parameters,
   for (std::size_t i = 0; i < promised && 2 * i + 1 < times.size(); ++i) {
     MarkerEvent event;
     event.time_s = 60 * times[2 * i] + times[2 * i + 1];
-    if (!std::isfinite(event.time_s)) continue;
+    if (!IsUsableEventTime(event.time_s)) continue;
     if (i < labels.size()) event.label = labels[i];
     if (i < contexts.size()) event.context = contexts[i];
     if (i < subjects.size()) event.subject = subjects[i];
@@ -198,7 +198,7 @@ std::vector<MarkerEvent> ReadEventGroup(const C3dParameters& parameters,
     events.push_back(event);
   }
   if (events.size() < promised)
-    warnings.push_back(fmt::format("EVENT:USED promises {} events, {} of them have a time.",
+    warnings.push_back(fmt::format("EVENT:USED promises {} events, {} of them have a usable time.",
                                    promised, events.size()));
   return events;
 }
@@ -212,7 +212,7 @@ std::vector<MarkerEvent> ReadHeaderEvents(const C3dBytes& bytes) {
   for (int i = 0; i < count; ++i) {
     MarkerEvent event;
     event.time_s = DecimalOf(bytes.F32(304 + 4 * i));
-    if (!std::isfinite(event.time_s)) continue;
+    if (!IsUsableEventTime(event.time_s)) continue;
     for (int k = 0; k < 4; ++k) event.label += static_cast<char>(bytes.U8(396 + 4 * i + k));
     event.label = Trim(event.label.substr(0, event.label.find('\0')));
     events.push_back(event);

@@ -12,6 +12,7 @@
 #include "core/io/c3d_sections.h"
 #include "core/io/formats.h"
 #include "core/io/marker_names.h"
+#include "core/io/timing.h"
 #include "core/version.h"
 
 namespace articap {
@@ -149,8 +150,8 @@ void WriteEventGroup(const std::vector<MarkerEvent>& events, C3dParameterWriter&
   if (events.empty()) return;
   std::vector<float> times;
   for (const MarkerEvent& event : events) {
-    const double time_s = std::round(event.time_s * 1e6) * 1e-6;
-    double minutes = std::trunc(time_s / 60);
+    const double time_s = std::round(event.time_s * 1e6) * 1e-6 + 0.0;  // no -0
+    double minutes = std::trunc(time_s / 60) + 0.0;
     auto seconds = static_cast<float>(time_s - 60 * minutes);
     if (std::abs(seconds) >= 60) {
       minutes += std::copysign(1.0, time_s);
@@ -174,7 +175,7 @@ std::string FormatParameters(const MarkerRecording& recording, const StatusWords
   C3dParameterWriter writer;
   WritePointGroup(recording, -status.step_mm(), data_block, writer);
   WriteAnalogGroup(recording.analog, recording.tracks.rate_hz(), writer);
-  WriteEventGroup(recording.events, writer);
+  WriteEventGroup(UsableEvents(recording.events), writer);
   WriteTrialGroups(recording, status.mark_states_only(), writer);
   return std::move(writer).Finish();
 }

@@ -24,10 +24,15 @@ struct SampleSummary {
   int beyond_float = 0;
 };
 
+// How far the nearest float, or the nearest 0.0001 mm, is from the coordinate.
 double RoundingMm(double coordinate_mm, bool to_float) {
-  const double written = to_float ? static_cast<double>(static_cast<float>(coordinate_mm))
-                                  : std::round(coordinate_mm * 1e4) * 1e-4;
-  return std::abs(written - coordinate_mm);
+  if (to_float)
+    return std::abs(static_cast<double>(static_cast<float>(coordinate_mm)) - coordinate_mm);
+  constexpr double kExactIntegers = 4503599627370496.0;   // 2^52
+  constexpr double kRoundToInteger = 6755399441055744.0;  // adding 1.5 * 2^52 drops the fraction
+  const double steps = coordinate_mm * 1e4;
+  if (std::abs(steps) > kExactIntegers / 4) return 0;
+  return std::abs((steps + kRoundToInteger) - kRoundToInteger - steps) * 1e-4;
 }
 
 SampleSummary Summarize(const StageTracks& tracks, bool to_float) {
@@ -138,6 +143,8 @@ std::vector<std::string> LossesOf(const MarkerRecording& recording, MarkerFormat
   else
     AddTextLosses(recording, format, losses);
   AddNameLosses(recording, losses);
+  if (const auto lost = recording.events.size() - UsableEvents(recording.events).size())
+    losses.push_back(fmt::format("{} events lie beyond all time and are not kept.", lost));
   const SessionTime kept_start =
       KeepsTimes(format) ? SnapStart(tracks.start(), tracks.first_frame(), tracks.rate_hz())
                          : NominalStart(tracks.first_frame(), tracks.rate_hz());

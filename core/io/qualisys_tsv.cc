@@ -36,7 +36,7 @@ bool IsHeaderLine(const std::vector<std::string>& cells) {
 void ParseEvent(const std::vector<std::string>& cells, TsvHeader& header) {
   if (cells.size() < 4) return;
   const auto time_s = ParseNumber(cells[3]);
-  if (!time_s || !std::isfinite(*time_s)) return;
+  if (!time_s || !IsUsableEventTime(*time_s)) return;
   MarkerEvent event;
   event.label = cells[1];
   event.time_s = *time_s;
@@ -134,7 +134,7 @@ std::string WriteQualisysTsv(const MarkerRecording& recording) {
       "NO_OF_FRAMES\t{}\nNO_OF_CAMERAS\t0\nNO_OF_MARKERS\t{}\nFREQUENCY\t{}\nNO_OF_ANALOG\t0\n"
       "ANALOG_FREQUENCY\t0\nDESCRIPTION\t--\nDATA_INCLUDED\t3D\n",
       tracks.num_frames(), tracks.num_markers(), FormatRate(tracks.rate_hz()));
-  for (const MarkerEvent& event : recording.events) {
+  for (const MarkerEvent& event : UsableEvents(recording.events)) {
     const double frame = std::round(event.time_s * tracks.rate_hz()) + 1;
     out += fmt::format("EVENT\t{}\t{:.0f}\t", QuoteCell(CleanText(event.label), '\t'), frame);
     AppendSeconds(event.time_s, out);

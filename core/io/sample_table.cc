@@ -66,13 +66,11 @@ class RowParser {
         Aim(layout.marker_columns[marker][axis], static_cast<int>(3 * marker + axis));
     if (layout.frame_column) Aim(*layout.frame_column, kFrameNumber);
     if (layout.time_column) Aim(*layout.time_column, kTime);
-    row_.resize(3 * layout.marker_columns.size());
+    row_.assign(3 * layout.marker_columns.size(), kNone);
   }
 
   // Appends the line's row, unless it is blank.
   Result<void> Parse(std::string_view line, int line_number, Rows& rows) {
-    std::fill(row_.begin(), row_.end(), kNone);
-    frame_number_ = time_ = kNone;
     std::size_t column = 0;
     bool is_blank = true;
     const char* at = line.data();
@@ -92,6 +90,8 @@ class RowParser {
     if (layout_.frame_column) rows.frame_numbers.push_back(frame_number_);
     if (layout_.time_column) rows.times.push_back(time_ * layout_.seconds_per_time);
     ++rows.count;
+    std::fill(row_.begin(), row_.end(), kNone);
+    frame_number_ = time_ = kNone;
     return {};
   }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "core/io/text.h"
@@ -171,7 +172,7 @@ Result<void> PlaceRows(const std::vector<double>& steps, std::size_t num_markers
                        std::vector<std::string>& warnings) {
   if (steps.empty()) return {};
   const double num_frames = steps.back() + 1;
-  constexpr double kFewSamples = 2e6;
+  constexpr double kFewSamples = 5e5;
   if (num_frames > 10 * static_cast<double>(steps.size()) &&
       num_frames * static_cast<double>(std::max<std::size_t>(num_markers, 1)) > kFewSamples) {
     std::size_t worst = 1;
@@ -196,6 +197,15 @@ Result<void> PlaceRows(const std::vector<double>& steps, std::size_t num_markers
 
 bool IsUsableRate(double rate_hz) {
   return std::isfinite(rate_hz) && rate_hz >= 0.01 && rate_hz <= 1e6;
+}
+
+bool IsUsableEventTime(double time_s) { return std::abs(time_s) <= 1e9; }
+
+std::vector<MarkerEvent> UsableEvents(const std::vector<MarkerEvent>& events) {
+  std::vector<MarkerEvent> usable;
+  std::copy_if(events.begin(), events.end(), std::back_inserter(usable),
+               [](const MarkerEvent& event) { return IsUsableEventTime(event.time_s); });
+  return usable;
 }
 
 SessionTime NominalStart(int first_frame, double rate_hz) {

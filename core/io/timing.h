@@ -12,6 +12,11 @@ namespace articap {
 // Between one frame in a hundred seconds and a million a second.
 bool IsUsableRate(double rate_hz);
 
+// Finite, and within thirty years: what formats can hold to the microsecond.
+bool IsUsableEventTime(double time_s);
+// The events whose times are usable; the only ones that are read or written.
+std::vector<MarkerEvent> UsableEvents(const std::vector<MarkerEvent>& events);
+
 // The time of the first frame of a file that keeps no times but frame numbers from 1.
 SessionTime NominalStart(int first_frame, double rate_hz);
 

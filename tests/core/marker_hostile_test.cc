@@ -29,7 +29,7 @@ void ExpectHarmless(const std::string& bytes, const std::string& what) {
       continue;
     }
     const double samples = double(recording->tracks.num_frames()) * recording->tracks.num_markers();
-    EXPECT_LE(samples, 3e6 + 64.0 * double(bytes.size())) << what;
+    EXPECT_LE(samples, 1e6 + 64.0 * double(bytes.size())) << what;
   }
 }
 
