@@ -41,9 +41,9 @@ constexpr double kLargestMedianDistance_mm = 6;
 constexpr double kClearlyWorse = 1.1;
 constexpr int kHeadings = 5;
 
-template <class Names>
-bool IsOneOf(const Names& names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
+template <class Things, class Thing>
+bool IsOneOf(const Things& things, const Thing& thing) {
+  return std::ranges::find(things, thing) != things.end();
 }
 
 // A marker with what is known of its place.
