@@ -35,8 +35,10 @@ constexpr double kSampleSpacing_mm = 3;
 constexpr int kIcpIterations = 30;
 // Pairs farther apart than this are left out by ICP: markers on spectacles or a headband.
 constexpr double kIcpReach_mm = 40;
-// So many of the landings per start, by their trimmed residual after ICP, are worth refining.
-constexpr std::size_t kRefinedPerStart = 16;
+// So many landings, by their trimmed residual after ICP, are worth refining, of those that differ
+// by more than this from all better ones.
+constexpr std::size_t kRefinedLandings = 24;
+constexpr double kSameTurn = 5 * kDegree, kSamePlace_mm = 5;
 // Of the points, by their distance to the skin, that a start is judged by.
 constexpr double kTrimmedPart = 0.8;
 constexpr double kOtherOrientation = 20 * kDegree;
@@ -159,6 +161,22 @@ std::vector<IcpSearch::Landing> LandFromAllStarts(std::span<const Eigen::Vector3
   return landings;
 }
 
+// The best landings, each pose once; `landings` are sorted.
+std::vector<Sim3d> DistinctLandings(const std::vector<IcpSearch::Landing>& landings,
+                                    const Eigen::Vector3d& cloud_center) {
+  std::vector<Sim3d> distinct;
+  for (const IcpSearch::Landing& landing : landings) {
+    const Sim3d& pose = landing.rig_from_cloud;
+    const bool is_new = std::ranges::none_of(distinct, [&](const Sim3d& other) {
+      return pose.rotation.angularDistance(other.rotation) < kSameTurn &&
+             (pose * cloud_center - other * cloud_center).norm() < kSamePlace_mm;
+    });
+    if (is_new) distinct.push_back(pose);
+    if (distinct.size() == kRefinedLandings) break;
+  }
+  return distinct;
+}
+
 IcpAlignment BestOf(const std::vector<CloudFit>& fits) {
   const CloudFit& best = *std::ranges::min_element(fits, {}, &CloudFit::cost);
   IcpAlignment alignment;
@@ -185,11 +203,9 @@ Result<IcpAlignment> AlignCloudToRig(std::span<const Eigen::Vector3d> cloud_mm, 
 
   const auto landings = LandFromAllStarts(cloud_mm, spread.centroid, *surface, options);
   std::vector<CloudFit> fits;
-  const std::size_t num_refined =
-      std::min(kRefinedPerStart * options.starts.size(), landings.size());
-  for (std::size_t i = 0; i < num_refined; ++i) {
-    CloudFit fit = RefineCloudAlignment(*surface, cloud_mm, landings[i].rig_from_cloud,
-                                        options.model, /*at_landmarks=*/false);
+  for (const Sim3d& start : DistinctLandings(landings, spread.centroid)) {
+    CloudFit fit = RefineCloudAlignment(*surface, cloud_mm, start, options.model,
+                                        /*at_landmarks=*/false);
     if (options.use_landmarks)
       fit = RefineCloudAlignment(*surface, cloud_mm, fit.rig_from_cloud, options.model,
                                  /*at_landmarks=*/true);

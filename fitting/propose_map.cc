@@ -11,10 +11,10 @@
 #include <numbers>
 #include <optional>
 
-#include "core/alignment.h"
 #include "core/landmarks.h"
 #include "fitting/face_surface.h"
 #include "fitting/icp_alignment.h"
+#include "fitting/landmark_assignment.h"
 #include "fitting/marker_motion.h"
 
 namespace articap {
@@ -49,7 +49,6 @@ bool IsOneOf(const Things& things, const Thing& thing) {
 // A marker with what is known of its place.
 struct PlacedMarker {
   std::string name;
-  Eigen::Vector3d point_in_rig = Eigen::Vector3d::Zero();
   double motion_mm = 0;
   double skin_mm = 0;       // distance to the skin
   std::string skin_region;  // of the nearest triangle; empty where it is none of the vocabulary
@@ -99,46 +98,28 @@ Result<std::vector<Eigen::Quaterniond>> StartOrientations(const ProposeMapOption
 // -- Places ---------------------------------------------------------------------------------------
 
 std::vector<PlacedMarker> PlaceMarkers(const MarkerMotion& motion, const Sim3d& rig_from_stage,
-                                       const FaceSurface& surface, const FaceRig& rig) {
+                                       const FaceSurface& surface, const FaceRig& rig,
+                                       double reach_mm) {
   std::vector<PlacedMarker> placed;
+  std::vector<Eigen::Vector3d> points_in_rig;
   for (const MarkerMotion::Marker& marker : motion.markers) {
     PlacedMarker place;
     place.name = marker.name;
-    place.point_in_rig = rig_from_stage * marker.point_in_stage_mm;
     place.motion_mm = marker.motion_mm;
-    const FaceSurface::Foot foot = surface.Nearest(place.point_in_rig);
+    const FaceSurface::Foot foot = surface.Nearest(rig_from_stage * marker.point_in_stage_mm);
     place.skin_mm = foot.distance_mm;
     const std::string& region = rig.definition().region_names[foot.region];
     if (IsRegion(region)) place.skin_region = region;
     placed.push_back(std::move(place));
+    points_in_rig.push_back(rig_from_stage * marker.point_in_stage_mm);
+  }
+  const auto assigned = AssignLandmarks(surface, points_in_rig, reach_mm);
+  for (std::size_t m = 0; m < placed.size(); ++m) {
+    if (assigned[m].landmark.empty()) continue;
+    placed[m].landmark = assigned[m].landmark;
+    placed[m].landmark_mm = assigned[m].distance_mm;
   }
   return placed;
-}
-
-// The nearest pair of marker and landmark first, each only once.
-void AssignLandmarks(const FaceSurface& surface, double reach_mm,
-                     std::vector<PlacedMarker>& markers) {
-  struct Pair {
-    double distance_mm;
-    std::size_t marker, place;
-  };
-  std::vector<Pair> pairs;
-  for (std::size_t m = 0; m < markers.size(); ++m)
-    for (std::size_t p = 0; p < surface.places().size(); ++p) {
-      const double distance_mm =
-          (markers[m].point_in_rig - surface.places()[p].point_in_rig).norm();
-      if (distance_mm <= reach_mm && FindLandmark(surface.places()[p].landmark))
-        pairs.push_back({distance_mm, m, p});
-    }
-  std::ranges::stable_sort(pairs, {}, &Pair::distance_mm);
-  std::vector<bool> taken(surface.places().size(), false);
-  for (const Pair& pair : pairs) {
-    PlacedMarker& marker = markers[pair.marker];
-    if (taken[pair.place] || !marker.landmark.empty()) continue;
-    taken[pair.place] = true;
-    marker.landmark = surface.places()[pair.place].landmark;
-    marker.landmark_mm = pair.distance_mm;
-  }
 }
 
 // -- Roles ----------------------------------------------------------------------------------------
@@ -272,8 +253,6 @@ Result<StageResult<MarkerSet>> ProposeMap(const StageTracks& reference, const st
   const auto starts = StartOrientations(options);
   if (!starts) return tl::unexpected(starts.error());
   if (!(options.landmark_reach_mm > 0)) return Fail("landmark_reach_mm must be positive");
-  const auto surface = FaceSurface::Create(rig);
-  if (!surface) return tl::unexpected(surface.error());
   const MarkerMotion motion = MeasureMarkerMotion(reference);
   std::vector<Eigen::Vector3d> cloud_mm;
   for (const MarkerMotion::Marker& marker : motion.markers)
@@ -283,9 +262,10 @@ Result<StageResult<MarkerSet>> ProposeMap(const StageTracks& reference, const st
   const auto alignment = AlignCloudToRig(cloud_mm, rig, icp_options);
   if (!alignment) return tl::unexpected(alignment.error());
 
-  std::vector<PlacedMarker> markers =
-      PlaceMarkers(motion, alignment->rig_from_cloud, *surface, rig);
-  AssignLandmarks(*surface, 2 * options.landmark_reach_mm, markers);
+  const auto adapted = AdaptIdentity(rig, cloud_mm, alignment->rig_from_cloud, icp_options.model);
+  if (!adapted) return tl::unexpected(adapted.error());
+  const std::vector<PlacedMarker> markers = PlaceMarkers(
+      motion, adapted->fit.rig_from_cloud, adapted->surface, rig, 2 * options.landmark_reach_mm);
   StageResult<MarkerSet> result{MakeSet(name, markers, options), {}};
   result.report.stage = "map";
   result.report.options = EchoOptions(options);
