@@ -13,6 +13,7 @@
 
 #include "core/file_io.h"
 #include "core/landmarks.h"
+#include "core/toml_reader.h"
 
 namespace articap {
 namespace {
@@ -213,45 +214,24 @@ class MarkerSetReader {
   std::string source_name_;
 };
 
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      quoted += fmt::format("\\{}", c);
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      quoted += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
-    else
-      quoted += c;
-  }
-  return quoted + "\"";
-}
-
-// The shortest text that is a floating point number to TOML: "2.0", not "2".
-std::string TomlNumber(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
-
 std::string TomlAxis(const Eigen::Vector3d& axis) {
   for (int i = 0; i < 3; ++i)
     for (const double sign : {-1.0, 1.0})
       if (axis == sign * Eigen::Vector3d::Unit(i))
         return fmt::format("\"{}{}\"", sign < 0 ? '-' : '+', "xyz"[i]);
-  return fmt::format("[{}, {}, {}]", TomlNumber(axis.x()), TomlNumber(axis.y()),
-                     TomlNumber(axis.z()));
+  return fmt::format("[{}, {}, {}]", TomlFloat(axis.x()), TomlFloat(axis.y()), TomlFloat(axis.z()));
 }
 
 std::string WriteMarker(const MarkerRole& marker) {
   std::vector<std::string> roles;
   for (const RoleField& role : kRoles)
-    if (marker.*role.field) roles.push_back(Quoted(role.name));
-  std::string text = fmt::format("\n[[marker]]\nname = {}\nroles = [{}]\n", Quoted(marker.name),
+    if (marker.*role.field) roles.push_back(QuotedToml(role.name));
+  std::string text = fmt::format("\n[[marker]]\nname = {}\nroles = [{}]\n", QuotedToml(marker.name),
                                  fmt::join(roles, ", "));
-  if (!marker.landmark.empty()) text += fmt::format("landmark = {}\n", Quoted(marker.landmark));
+  if (!marker.landmark.empty()) text += fmt::format("landmark = {}\n", QuotedToml(marker.landmark));
   if (marker.beside_landmark) text += "beside_landmark = true\n";
-  if (!marker.region.empty()) text += fmt::format("region = {}\n", Quoted(marker.region));
-  if (marker.offset_mm != 0) text += fmt::format("offset_mm = {}\n", TomlNumber(marker.offset_mm));
+  if (!marker.region.empty()) text += fmt::format("region = {}\n", QuotedToml(marker.region));
+  if (marker.offset_mm != 0) text += fmt::format("offset_mm = {}\n", TomlFloat(marker.offset_mm));
   return text;
 }
 
@@ -314,7 +294,7 @@ Result<MarkerSet> ReadMarkerSet(const std::filesystem::path& path) {
 
 std::string WriteMarkerSet(const MarkerSet& set) {
   std::string text =
-      fmt::format("name = {}\n\n[head]\nmode = \"{}\"\n", Quoted(set.name), NameOf(set.mode));
+      fmt::format("name = {}\n\n[head]\nmode = \"{}\"\n", QuotedToml(set.name), NameOf(set.mode));
   if (set.axes)
     text += fmt::format("left = {}\nup = {}\nforward = {}\n", TomlAxis(set.axes->left_in_stage),
                         TomlAxis(set.axes->up_in_stage), TomlAxis(set.axes->forward_in_stage));

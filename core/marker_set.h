@@ -20,10 +20,10 @@ struct MarkerRole {
   bool strategic = false;        // a point of the orientation fit
   bool face = false;             // drives the articulatory parameters
   std::string landmark;          // of core/landmarks.h; empty where it sits at none
-  bool beside_landmark = false;  // sits near its landmark, too far off to tell the identity by
   // Of the rig, where its virtual marker must lie; empty: the landmark's region.
   std::string region;
   double offset_mm = 0;  // height of the marker's centre above the skin, where known
+  bool beside_landmark = false;  // sits near its landmark, too far off to tell the identity by
 };
 
 // The marker's region, or its landmark's where it names none; empty where neither is known.

@@ -201,7 +201,7 @@ Result<double> ParseValue(std::string_view cell, bool may_be_infinite, const Csv
 
 Result<void> ParseFrameAndTime(const std::vector<std::string_view>& cells, const CsvRows& csv,
                                Rows& rows) {
-  constexpr double kLongest_s = 4e9;  // so that differences fit in int64 nanoseconds
+  constexpr double kLongestSeconds = 4e9;  // so that differences fit in int64 nanoseconds
   const auto frame = ParseWhole<int>(cells[0]);
   if (!frame)
     return Fail(fmt::format("{}: frame {} is not a whole number", csv.Where(), Quoted(cells[0])));
@@ -214,7 +214,7 @@ Result<void> ParseFrameAndTime(const std::vector<std::string_view>& cells, const
         "fit)",
         csv.Where(), *frame, expected - 1));
   const auto time_s = ParseWhole<double>(cells[1]);
-  if (!time_s || !(std::abs(*time_s) < kLongest_s))
+  if (!time_s || !(std::abs(*time_s) < kLongestSeconds))
     return Fail(
         fmt::format("{}: time_s {} is not a time in seconds", csv.Where(), Quoted(cells[1])));
   rows.times_ns.push_back(std::llround(*time_s * 1e9));

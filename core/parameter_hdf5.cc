@@ -141,10 +141,10 @@ Result<void> ReadTimes(hid_t file, std::size_t num_frames, ParameterTrack& track
   if (!times_s) return tl::unexpected(times_s.error());
   if (num_frames == 0) return {};
 
-  constexpr double kLongest_s = 4e9;  // int64 nanoseconds, with room to add
+  constexpr double kLongestSeconds = 4e9;  // int64 nanoseconds, with room to add
   const double start_s = times_s->front();
-  if (!(std::abs(start_s) < kLongest_s) ||
-      !(static_cast<double>(num_frames) / *rate_hz < kLongest_s))
+  if (!(std::abs(start_s) < kLongestSeconds) ||
+      !(static_cast<double>(num_frames) / *rate_hz < kLongestSeconds))
     return Fail("/time_s begins at no possible time");
   track.start = SessionTimeFromSeconds(start_s);
   const std::int64_t first = frames->front();

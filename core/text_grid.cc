@@ -249,8 +249,8 @@ Result<TextGridTier> ReadTier(TokenReader& reader) {
           fmt::format("label {} of tier '{}' ends ({} s) before it starts ({} s)", i + 1, tier.name,
                       label->end_s, label->start_s));
     // Praat itself writes neighbours whose times differ in the last digits.
-    constexpr double kRounding_s = 1e-6;
-    if (!tier.labels.empty() && label->start_s < tier.labels.back().end_s - kRounding_s)
+    constexpr double kRoundingSeconds = 1e-6;
+    if (!tier.labels.empty() && label->start_s < tier.labels.back().end_s - kRoundingSeconds)
       return reader.FailHere(
           fmt::format("label {} of tier '{}' starts at {} s, before the one before it ends ({} s)",
                       i + 1, tier.name, label->start_s, tier.labels.back().end_s));

@@ -116,11 +116,11 @@ int FramesPerPoint(int num_frames, int num_series) {
 }
 
 FrameWindow DefaultWindow(const ParameterTrack& track) {
-  constexpr double kUsual_s = 10;
+  constexpr double kUsualSeconds = 10;
   int first = 0;
   while (first < track.num_frames() && !track.values.row(first).allFinite()) ++first;
   if (first == track.num_frames()) first = 0;
-  const double count = std::max(1.0, std::round(kUsual_s * track.rate_hz));
+  const double count = std::max(1.0, std::round(kUsualSeconds * track.rate_hz));
   const int left = track.num_frames() - first;
   return {first, count < left ? static_cast<int>(count) : left};
 }

@@ -109,6 +109,7 @@ Json MarkerPositions(const RigTracks* tracks, const std::vector<std::string>& na
   std::vector<Eigen::Vector3d> positions_mm;
   positions_mm.reserve(names.size() * frame_numbers.size());
   std::vector<std::optional<int>> columns;
+  columns.reserve(names.size());
   for (const std::string& name : names) columns.push_back(tracks->Find(name));
   for (const int number : frame_numbers) {
     const std::int64_t frame = static_cast<std::int64_t>(number) - tracks->first_frame();

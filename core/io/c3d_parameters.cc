@@ -22,7 +22,7 @@ std::string ToUpper(std::string_view text) {
 std::string TextAt(const C3dBytes& bytes, std::size_t offset, std::size_t length) {
   std::string text;
   for (std::size_t i = 0; i < length; ++i) text += static_cast<char>(bytes.U8(offset + i));
-  return std::string(Trim(text.substr(0, text.find('\0'))));
+  return CleanText(text.substr(0, text.find('\0')));
 }
 
 // A group or parameter as it lies in the file:

@@ -214,7 +214,7 @@ std::vector<MarkerEvent> ReadHeaderEvents(const C3dBytes& bytes) {
     event.time_s = DecimalOf(bytes.F32(304 + 4 * i));
     if (!IsUsableEventTime(event.time_s)) continue;
     for (int k = 0; k < 4; ++k) event.label += static_cast<char>(bytes.U8(396 + 4 * i + k));
-    event.label = Trim(event.label.substr(0, event.label.find('\0')));
+    event.label = CleanText(event.label.substr(0, event.label.find('\0')));
     events.push_back(event);
   }
   return events;

@@ -12,6 +12,7 @@
 #include "core/io/c3d_sections.h"
 #include "core/io/formats.h"
 #include "core/io/marker_names.h"
+#include "core/io/text.h"
 #include "core/io/timing.h"
 #include "core/version.h"
 
@@ -102,8 +103,10 @@ void WritePointGroup(const MarkerRecording& recording, float scale, int data_blo
   if (num_frames > kMost16Bit) writer.Add("LONG_FRAMES", static_cast<float>(num_frames));
   writer.Add("UNITS", "mm");
   writer.AddTextList("LABELS", LabelsToWrite(recording));
-  if (!recording.descriptions.empty())
-    writer.AddTextList("DESCRIPTIONS", Cleaned(recording.descriptions));
+  const std::vector<std::string> descriptions = Cleaned(recording.descriptions);
+  if (std::any_of(descriptions.begin(), descriptions.end(),
+                  [](const std::string& text) { return !text.empty(); }))
+    writer.AddTextList("DESCRIPTIONS", descriptions);
 }
 
 void WriteTrialGroups(const MarkerRecording& recording, bool mark_states_only,

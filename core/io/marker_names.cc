@@ -12,14 +12,6 @@
 namespace articap {
 namespace {
 
-// Bytes at the end of which the text may be cut without splitting a UTF-8 character.
-std::string_view CutTo(std::string_view text, std::size_t max_bytes) {
-  if (text.size() <= max_bytes) return text;
-  std::size_t end = max_bytes;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return Trim(text.substr(0, end));
-}
-
 // Gives every label after the first of its kind a number, in order: "chin", "chin_2", "chin_3".
 // Returns how many were changed.
 int MakeUnique(std::vector<std::string>& names, std::size_t max_bytes) {
@@ -33,7 +25,7 @@ int MakeUnique(std::vector<std::string>& names, std::size_t max_bytes) {
     int& count = counts.try_emplace(name, 1).first->second;
     do {
       const std::string suffix = fmt::format("_{}", ++count);
-      candidate = std::string(CutTo(name, max_bytes - suffix.size())) + suffix;
+      candidate = CleanText(name, max_bytes - suffix.size()) + suffix;
     } while (taken.contains(candidate));
     name = candidate;
     taken.insert(name);
@@ -73,13 +65,6 @@ int NameUnlabelled(std::vector<std::string>& names) {
 }
 
 }  // namespace
-
-std::string CleanText(std::string_view text, std::size_t max_bytes) {
-  std::string clean(text);
-  for (char& c : clean)
-    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
-  return std::string(CutTo(Trim(clean), max_bytes));
-}
 
 NamedMarkers NameMarkers(const std::vector<std::string>& labels,
                          std::vector<std::string>& warnings) {

@@ -26,7 +26,4 @@ NamedMarkers NameMarkers(const std::vector<std::string>& labels,
 std::vector<std::string> LabelsToWrite(const MarkerRecording& recording,
                                        std::size_t max_bytes = 255);
 
-// One line without control characters, trimmed, cut to `max_bytes`: fit for any format's text.
-std::string CleanText(std::string_view text, std::size_t max_bytes = 255);
-
 }  // namespace articap

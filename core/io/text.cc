@@ -82,6 +82,19 @@ std::string ToLower(std::string_view text) {
   return lower;
 }
 
+std::string CleanText(std::string_view text, std::size_t max_bytes) {
+  std::string clean(text);
+  for (char& c : clean)
+    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+  std::string_view trimmed = Trim(clean);
+  if (trimmed.size() > max_bytes) {
+    std::size_t end = max_bytes;
+    while (end > 0 && (static_cast<unsigned char>(trimmed[end]) & 0xC0) == 0x80) --end;
+    trimmed = Trim(trimmed.substr(0, end));
+  }
+  return std::string(trimmed);
+}
+
 std::string Printable(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   std::string printable(text.substr(0, kLongest));

@@ -5,100 +5,21 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <random>
 #include <sstream>
 
 #include "core/check.h"
 #include "core/file_io.h"
 #include "core/version.h"
+#include "rig/io/gltf_compare.h"
 #include "rig/io/gltf_model.h"
+#include "rig/io/gltf_plan.h"
 #include "rig/io/obj_mesh.h"
 #include "rig/io/rig_toml.h"
 #include "rig/io/tinygltf.h"
 
 namespace articap {
 namespace {
-
-constexpr double kMetre_mm = 1000;
-
-// One part of the rig with vertices of its own.
-struct PartMesh {
-  std::string name;
-  std::vector<int> rig_vertex;  // of each vertex
-  std::vector<Eigen::Vector3i> triangles;
-};
-
-std::vector<PartMesh> PartMeshes(const RigDefinition& rig) {
-  std::vector<PartMesh> parts;
-  for (std::size_t part = 0; part < rig.part_names.size(); ++part) {
-    PartMesh mesh{rig.part_names[part], {}, {}};
-    std::vector<int> new_index(rig.mesh.vertices.size(), -1);
-    for (std::size_t i = 0; i < rig.mesh.triangles.size(); ++i) {
-      if (rig.triangle_part[i] != part) continue;
-      Eigen::Vector3i triangle = rig.mesh.triangles[i];
-      for (int& corner : triangle) {
-        int& index = new_index[corner];
-        if (index < 0) {
-          index = static_cast<int>(mesh.rig_vertex.size());
-          mesh.rig_vertex.push_back(corner);
-        }
-        corner = index;
-      }
-      mesh.triangles.push_back(triangle);
-    }
-    if (!mesh.triangles.empty()) parts.push_back(std::move(mesh));
-  }
-  return parts;
-}
-
-// The parameters that become morph targets: all but the jaw's own, and those of the jaw's that move
-// vertices besides.
-struct TargetPlan {
-  std::vector<int> parameters;
-  std::vector<double> scales;  // value of the parameter at weight 1
-};
-
-bool IsJawParameter(const RigDefinition& rig, int parameter) {
-  return rig.jaw &&
-         (parameter == rig.jaw->rotation_parameter || parameter == rig.jaw->thrust_parameter ||
-          parameter == rig.jaw->shift_parameter);
-}
-
-TargetPlan PlanTargets(const FaceRig& rig) {
-  TargetPlan plan;
-  for (int i = 0; i < rig.num_parameters(); ++i) {
-    if (IsJawParameter(rig.definition(), i) && rig.field(i).vertices.empty()) continue;
-    const double max = rig.definition().parameters[i].max;
-    plan.parameters.push_back(i);
-    plan.scales.push_back(max > 0 ? max : 1);
-  }
-  return plan;
-}
-
-std::vector<float> TargetWeights(const TargetPlan& plan, const Eigen::VectorXd& parameters) {
-  std::vector<float> weights;
-  for (std::size_t i = 0; i < plan.parameters.size(); ++i)
-    weights.push_back(static_cast<float>(parameters[plan.parameters[i]] / plan.scales[i]));
-  return weights;
-}
-
-// Translation (metres) and rotation of the jaw's node in a pose.
-struct JawPose {
-  Eigen::Vector3d translation_m;
-  Eigen::Quaterniond rotation;
-};
-
-JawPose PoseJaw(const FaceRig& rig, const Eigen::VectorXd& parameters) {
-  const JawJoint& jaw = *rig.definition().jaw;
-  const auto value = [&](int index) { return index < 0 ? 0.0 : parameters[index]; };
-  const Eigen::Vector3d position_mm = rig.neutral_mesh().vertices[jaw.pivot_vertex] +
-                                      value(jaw.thrust_parameter) * jaw.thrust_direction +
-                                      value(jaw.shift_parameter) * jaw.shift_direction;
-  return {position_mm / kMetre_mm,
-          Eigen::Quaterniond(Eigen::AngleAxisd(value(jaw.rotation_parameter), jaw.axis))};
-}
 
 // Fills a tinygltf model with one buffer.
 class GlbBuilder {
@@ -358,108 +279,6 @@ class GlbBuilder {
   tinygltf::Model model_;
 };
 
-// Poses that a file is compared in: neutral, each end of each range, then random ones within them.
-std::vector<Eigen::VectorXd> SamplePoses(const FaceRig& rig) {
-  constexpr int kRandomPoses = 24;
-  const auto& ranges = rig.definition().parameters;
-  std::vector<Eigen::VectorXd> poses = {Eigen::VectorXd::Zero(rig.num_parameters())};
-  for (int i = 0; i < rig.num_parameters(); ++i)
-    for (const double end : {ranges[i].min, ranges[i].max}) {
-      poses.push_back(poses.front());
-      poses.back()[i] = end;
-    }
-  std::mt19937_64 random(20040617);
-  for (int k = 0; k < kRandomPoses; ++k) {
-    poses.push_back(poses.front());
-    for (int i = 0; i < rig.num_parameters(); ++i) {
-      const double share = static_cast<double>(random() >> 11) * 0x1p-53;
-      poses.back()[i] = ranges[i].min + share * (ranges[i].max - ranges[i].min);
-    }
-  }
-  return poses;
-}
-
-// The file as another program would pose it, against the rig.
-class FileComparison {
- public:
-  FileComparison(const FaceRig& rig, GltfModel model)
-      : rig_(rig), model_(std::move(model)), parts_(PartMeshes(rig.definition())) {
-    for (std::size_t i = 0; i < model_.nodes.size(); ++i)
-      if (model_.nodes[i].name == "jaw") jaw_node_ = static_cast<int>(i);
-  }
-
-  double Deviation_mm(const Eigen::VectorXd& parameters, const std::vector<float>& weights,
-                      const Eigen::Vector3f& jaw_translation_m,
-                      const Eigen::Quaternionf& jaw_rotation) {
-    if (jaw_node_ >= 0)
-      model_.nodes[jaw_node_].parent_from_node =
-          Eigen::Translation3f(jaw_translation_m) * jaw_rotation.normalized();
-    const std::vector<Eigen::Vector3d> expected_mm = rig_.Evaluate(parameters);
-    const int node = model_.mesh_nodes.front();
-    double largest_mm = 0;
-    for (std::size_t part = 0; part < parts_.size(); ++part) {
-      const std::vector<Eigen::Vector3f> found_m =
-          EvaluatePrimitive(model_, node, model_.meshes[0].primitives[part], weights);
-      for (std::size_t i = 0; i < found_m.size(); ++i)
-        largest_mm = std::max(largest_mm, (kMetre_mm * found_m[i].cast<double>() -
-                                           expected_mm[parts_[part].rig_vertex[i]])
-                                              .norm());
-    }
-    return largest_mm;
-  }
-
-  double Deviation_mm(const Eigen::VectorXd& parameters, const TargetPlan& plan) {
-    JawPose jaw{Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity()};
-    if (rig_.definition().jaw) jaw = PoseJaw(rig_, parameters);
-    return Deviation_mm(parameters, TargetWeights(plan, parameters),
-                        jaw.translation_m.cast<float>(), jaw.rotation.cast<float>());
-  }
-
-  // A key frame as the animation's channels hold it.
-  double KeyFrameDeviation_mm(const RigAnimation& animation, int frame) {
-    const auto values = [&](const char* path, std::size_t width) {
-      for (const GltfModel::Channel& channel : model_.channels)
-        if (channel.path == path)
-          return std::vector<float>(
-              channel.values.begin() + static_cast<long>(frame * width),
-              channel.values.begin() + static_cast<long>((frame + 1) * width));
-      return std::vector<float>(width, 0.0f);
-    };
-    const std::vector<float> t = values("translation", 3);
-    const std::vector<float> q = values("rotation", 4);
-    return Deviation_mm(animation.parameters.row(frame).transpose(),
-                        values("weights", model_.meshes[0].target_names.size()), {t[0], t[1], t[2]},
-                        {q[3], q[0], q[1], q[2]});
-  }
-
-  const GltfModel& model() const { return model_; }
-
- private:
-  const FaceRig& rig_;
-  GltfModel model_;
-  std::vector<PartMesh> parts_;
-  int jaw_node_ = -1;
-};
-
-// Every frame of short animations, some 50 spread over long ones.
-ExportReport CompareFile(const FaceRig& rig, const TargetPlan& plan, GltfModel model,
-                         const std::optional<RigAnimation>& animation) {
-  FileComparison comparison(rig, std::move(model));
-  ExportReport report;
-  const auto note = [&](double deviation_mm) {
-    report.largest_deviation_mm = std::max(report.largest_deviation_mm, deviation_mm);
-    ++report.poses_compared;
-  };
-  for (const Eigen::VectorXd& pose : SamplePoses(rig)) note(comparison.Deviation_mm(pose, plan));
-  if (animation) {
-    const int num_frames = static_cast<int>(animation->parameters.rows());
-    for (int frame = 0; frame < num_frames; frame += std::max(1, num_frames / 50))
-      note(comparison.KeyFrameDeviation_mm(*animation, frame));
-  }
-  report.target_names = comparison.model().meshes[0].target_names;
-  return report;
-}
-
 }  // namespace
 
 Result<ExportReport> ExportGlb(const FaceRig& rig, const std::optional<RigAnimation>& animation,
@@ -478,7 +297,7 @@ Result<ExportReport> ExportGlb(const FaceRig& rig, const std::optional<RigAnimat
   const std::string bytes = builder.Bytes();
   auto model = ParseGltf(bytes, path.string(), std::nullopt);
   if (!model) return tl::unexpected(model.error());
-  ExportReport report = CompareFile(rig, builder.plan(), std::move(*model), animation);
+  ExportReport report = CompareWithRig(rig, builder.plan(), std::move(*model), animation);
   report.bytes = bytes.size();
   if (!(report.largest_deviation_mm <= kMaxExportDeviation_mm))
     return Fail(

@@ -5,17 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <string>
 
-#include "rig/io/tinygltf.h"
+#include "rig/io/gltf_accessor.h"
 
 namespace articap {
 namespace {
-
-// More vertices than any head has: keeps hostile counts from filling the memory.
-constexpr std::size_t kMaxElements = 4'000'000;
 
 struct RefusedExtension {
   const char* name;
@@ -27,134 +23,6 @@ constexpr RefusedExtension kRefusedExtensions[] = {
     {"KHR_meshopt_compression", "compressed with meshopt"},
     {"KHR_mesh_quantization", "quantised"},
 };
-
-// Carries the first fault out of the nested readers below.
-struct Refusal : std::exception {
-  explicit Refusal(std::string text) : message(std::move(text)) {}
-  const char* what() const noexcept override { return message.c_str(); }
-  std::string message;
-};
-
-template <class... Args>
-void Require(bool condition, fmt::format_string<Args...> text, Args&&... args) {
-  if (!condition) throw Refusal(fmt::format(text, std::forward<Args>(args)...));
-}
-
-bool IsIndex(int index, std::size_t size) {
-  return index >= 0 && static_cast<std::size_t>(index) < size;
-}
-
-// Bytes of one element of an accessor after another, checked against view and buffer.
-class ElementReader {
- public:
-  ElementReader(const tinygltf::Model& model, int index, std::string_view what) : what_(what) {
-    Require(IsIndex(index, model.accessors.size()), "{}: there is no accessor {}", what, index);
-    accessor_ = &model.accessors[index];
-    Require(!accessor_->sparse.isSparse,
-            "{}: the accessor is sparse, which is not supported; export without sparse accessors",
-            what);
-    Require(accessor_->count <= kMaxElements, "{}: {} elements are too many", what,
-            accessor_->count);
-    const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor_->type));
-    const int bytes =
-        tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor_->componentType));
-    Require(components > 0 && bytes > 0, "{}: the accessor has no known type", what);
-    components_ = static_cast<std::size_t>(components);
-    component_bytes_ = static_cast<std::size_t>(bytes);
-    if (accessor_->bufferView >= 0) Locate(model);
-  }
-
-  std::size_t count() const { return accessor_->count; }
-  std::size_t components() const { return components_; }
-  int component_type() const { return accessor_->componentType; }
-
-  // Integers are scaled to 0..1 where `normalized`; an accessor without a view is all zeros.
-  double Value(std::size_t element, std::size_t component) const {
-    if (!data_) return 0;
-    const unsigned char* at = data_ + element * stride_ + component * component_bytes_;
-    switch (accessor_->componentType) {
-      case TINYGLTF_COMPONENT_TYPE_FLOAT:
-        return Read<float>(at);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return Scaled(Read<std::uint8_t>(at), 255);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return Scaled(Read<std::uint16_t>(at), 65535);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return Read<std::uint32_t>(at);
-      default:
-        throw Refusal(fmt::format("{}: signed integers are not expected here", what_));
-    }
-  }
-
- private:
-  template <class T>
-  static T Read(const unsigned char* at) {
-    T value;
-    std::memcpy(&value, at, sizeof(value));
-    return value;
-  }
-  double Scaled(double value, double full) const {
-    return accessor_->normalized ? value / full : value;
-  }
-
-  void Locate(const tinygltf::Model& model) {
-    Require(IsIndex(accessor_->bufferView, model.bufferViews.size()),
-            "{}: there is no buffer view {}", what_, accessor_->bufferView);
-    const tinygltf::BufferView& view = model.bufferViews[accessor_->bufferView];
-    Require(IsIndex(view.buffer, model.buffers.size()), "{}: there is no buffer {}", what_,
-            view.buffer);
-    const std::vector<unsigned char>& bytes = model.buffers[view.buffer].data;
-    Require(
-        view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset,
-        "{}: the buffer view reaches over the end of the buffer ({} bytes); the file is cut off",
-        what_, bytes.size());
-    const std::size_t element = components_ * component_bytes_;
-    stride_ = view.byteStride > 0 ? view.byteStride : element;
-    Require(stride_ >= element && stride_ <= 255, "{}: the stride of {} bytes is wrong", what_,
-            stride_);
-    if (accessor_->count == 0) return;
-    const std::size_t needed = stride_ * (accessor_->count - 1) + element;
-    Require(accessor_->byteOffset <= view.byteLength &&
-                needed <= view.byteLength - accessor_->byteOffset,
-            "{}: {} elements do not fit into the buffer view's {} bytes; the file is damaged",
-            what_, accessor_->count, view.byteLength);
-    data_ = bytes.data() + view.byteOffset + accessor_->byteOffset;
-  }
-
-  std::string_view what_;
-  const tinygltf::Accessor* accessor_ = nullptr;
-  std::size_t components_ = 0;
-  std::size_t component_bytes_ = 0;
-  std::size_t stride_ = 0;
-  const unsigned char* data_ = nullptr;
-};
-
-std::vector<float> ReadFloats(const tinygltf::Model& model, int index, std::string_view what) {
-  const ElementReader reader(model, index, what);
-  Require(reader.component_type() == TINYGLTF_COMPONENT_TYPE_FLOAT,
-          "{}: the numbers are not 32-bit floats; export without quantisation", what);
-  std::vector<float> values;
-  values.reserve(reader.count() * reader.components());
-  for (std::size_t i = 0; i < reader.count(); ++i)
-    for (std::size_t k = 0; k < reader.components(); ++k) {
-      values.push_back(static_cast<float>(reader.Value(i, k)));
-      Require(std::isfinite(values.back()), "{}: element {} is not finite", what, i);
-    }
-  return values;
-}
-
-std::vector<Eigen::Vector3f> ReadVectors(const tinygltf::Model& model, int index,
-                                         std::string_view what) {
-  const ElementReader reader(model, index, what);
-  Require(reader.components() == 3, "{}: elements of {} numbers instead of 3", what,
-          reader.components());
-  const std::vector<float> values = ReadFloats(model, index, what);
-  std::vector<Eigen::Vector3f> vectors;
-  vectors.reserve(reader.count());
-  for (std::size_t i = 0; i < values.size(); i += 3)
-    vectors.emplace_back(values[i], values[i + 1], values[i + 2]);
-  return vectors;
-}
 
 std::vector<Eigen::Vector3i> ReadTriangles(const tinygltf::Model& model,
                                            const tinygltf::Primitive& primitive,

@@ -106,8 +106,8 @@ ImportRecipe::Parameter ReadParameter(const TomlReader& reader) {
 }
 
 ImportRecipe::Jaw ReadJaw(const TomlReader& reader) {
-  reader.AllowOnly(
-      {"target", "angle_deg", "pivot_mm", "rigid_groups", "fixed_groups", "smoothing_rounds"});
+  reader.AllowOnly({"target", "angle_deg", "pivot_mm", "rigid_groups", "fixed_groups", "soft_mm",
+                    "smoothing_rounds"});
   ImportRecipe::Jaw jaw;
   jaw.target = reader.Text("target");
   const double angle_deg = reader.Number("angle_deg");
@@ -116,6 +116,8 @@ ImportRecipe::Jaw ReadJaw(const TomlReader& reader) {
   jaw.pivot_mm = reader.Vector("pivot_mm");
   jaw.rigid_groups = reader.Texts("rigid_groups");
   jaw.fixed_groups = reader.Texts("fixed_groups");
+  jaw.soft_mm = reader.Number("soft_mm", jaw.soft_mm);
+  if (!(jaw.soft_mm > 0)) reader.Fault("soft_mm", "is not positive");
   jaw.smoothing_rounds = std::clamp(reader.Integer("smoothing_rounds", 0), 0, 100);
   return jaw;
 }

@@ -72,7 +72,8 @@ struct ImportRecipe {
     std::vector<std::string>
         rigid_groups;  // groups that turn with the whole jaw: lower teeth, tongue
     std::vector<std::string> fixed_groups;  // groups that do not turn: upper teeth, eyes
-    int smoothing_rounds = 0;               // of the weights over the mesh
+    double soft_mm = 1;        // ways not longer than this count for little: skin slides over bone
+    int smoothing_rounds = 0;  // of the weights over the mesh
   };
 
   std::string name;

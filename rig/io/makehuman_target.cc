@@ -13,7 +13,7 @@ namespace articap {
 namespace {
 
 // The largest target of a whole MakeHuman body is 1.2 MB: more is a bomb.
-constexpr std::size_t kMaxUnpackedBytes = 64u << 20;
+constexpr std::size_t kMaxUnpackedBytes = 16u << 20;
 
 bool IsGzip(std::string_view bytes) {
   return bytes.size() > 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b';

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "rig/head_size.h"
+#include "rig/io/jaw_weights.h"
 #include "rig/io/region_rules.h"
 
 namespace articap {
@@ -222,60 +223,29 @@ class MorphRigBuilder {
     return {};
   }
 
-  // With r = (R(angle) - I)(p - pivot) the way a vertex would go if it turned with the jaw, and d
-  // the way the target takes it, the weight is the w that makes w r nearest to d: d.r / (r.r +
-  // e^2). The small length e keeps vertices near the pivot, which hardly move, at 0.
   Result<void> AddJaw() {
     if (!recipe_.jaw || !options_.use_jaw_joint) return {};
     const ImportRecipe::Jaw& jaw = *recipe_.jaw;
     const auto opening = DenseTarget(jaw.target);
     if (!opening) return tl::unexpected(opening.error());
-    constexpr double kSmallWay_mm = 1.0;
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(jaw.angle_rad, Eigen::Vector3d::UnitX()).toRotationMatrix() -
-        Eigen::Matrix3d::Identity();
-    WeightMap map{"jaw", {}};
-    std::vector<char> is_free(opening->size(), 0);
-    for (std::size_t i = 0; i < opening->size(); ++i) {
-      const std::string& group = source_.group_names[group_of_vertex_[i]];
-      const Eigen::Vector3d way_mm = turn * (rig_.mesh.vertices[i] - jaw.pivot_mm);
-      const double share =
-          (*opening)[i].dot(way_mm) / (way_mm.squaredNorm() + kSmallWay_mm * kSmallWay_mm);
-      is_free[i] = !Contains(jaw.rigid_groups, group) && !Contains(jaw.fixed_groups, group);
-      map.weights.push_back(Contains(jaw.rigid_groups, group) ? 1
-                            : is_free[i]                      ? std::clamp(share, 0.0, 1.0)
-                                                              : 0);
+    std::vector<JawBond> bonds;
+    for (const int group : group_of_vertex_) {
+      const std::string& name = source_.group_names[group];
+      bonds.push_back(Contains(jaw.rigid_groups, name)   ? JawBond::kRigid
+                      : Contains(jaw.fixed_groups, name) ? JawBond::kFixed
+                                                         : JawBond::kFree);
     }
-    SmoothWeights(jaw.smoothing_rounds, is_free, map.weights);
-    // What is left of the smoothing's tail moves nothing that could be seen.
-    for (double& weight : map.weights)
-      if (weight < 1e-3) weight = 0;
+    WeightMap map{"jaw", JawWeights(jaw, rig_.mesh, *opening, bonds)};
     map.weights.push_back(0);  // of the pivot
     JawJoint joint;
     joint.weight_map = 0;
     joint.pivot_vertex = static_cast<int>(rig_.mesh.vertices.size());
+    rig_.landmarks.push_back({"jaw_pivot", joint.pivot_vertex});
     rig_.mesh.vertices.push_back(jaw.pivot_mm);
     rig_.colors.push_back(kDefaultColor);
     rig_.weight_maps.push_back(std::move(map));
     rig_.jaw = joint;
     return {};
-  }
-
-  // Laplacian smoothing over the mesh's edges.
-  void SmoothWeights(int rounds, const std::vector<char>& is_free,
-                     std::vector<double>& weights) const {
-    for (int round = 0; round < rounds; ++round) {
-      std::vector<double> sum(weights.size(), 0);
-      std::vector<int> count(weights.size(), 0);
-      for (const Eigen::Vector3i& triangle : rig_.mesh.triangles)
-        for (int k = 0; k < 3; ++k)
-          for (const int other : {triangle[(k + 1) % 3], triangle[(k + 2) % 3]}) {
-            sum[triangle[k]] += weights[other];
-            ++count[triangle[k]];
-          }
-      for (std::size_t i = 0; i < weights.size(); ++i)
-        if (is_free[i] && count[i] > 0) weights[i] = 0.5 * weights[i] + 0.5 * sum[i] / count[i];
-    }
   }
 
   Result<void> AddParameters() {

@@ -140,6 +140,7 @@ TEST(AlignmentTest, PredictsItsOwnErrors) {
   const double sigma_mm = 0.2;
   const std::vector<double> weights(source.size(), 1 / (sigma_mm * sigma_mm));
   const PointSpread spread = SpreadOf(source, weights);
+  EXPECT_NEAR(WorstRotationSigma(source, weights) / spread.WorstRotationSigma(), 1, 1e-9);
   const Eigen::Vector3d chin(0, -110, 0);
   double placement = 0, worst_angle = 0;
   const int num_trials = 2000;

@@ -55,7 +55,7 @@ TEST(MakeHumanTarget, FaultsAreNamedWithTheirLine) {
   EXPECT_THAT(message("1 0 0 0\n1 0 0 0\n"), HasSubstr("twice"));
   const std::string packed = Gzip(kTarget);
   EXPECT_THAT(message(packed.substr(0, packed.size() / 2)), HasSubstr("gzip"));
-  EXPECT_THAT(message(Gzip(std::string(80 << 20, ' '))), HasSubstr("larger than 64 MB"));
+  EXPECT_THAT(message(Gzip(std::string(17 << 20, ' '))), HasSubstr("larger than 16 MB"));
 }
 
 class MakeHumanHead : public testing::Test {
