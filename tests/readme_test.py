@@ -1,10 +1,11 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Runs the ```console sessions of README.md, whose output must be what stands there.
-tests/python/run_examples.py runs its Python.
+"""README.md's terminal session is what the commands print today.
 
-    tests/readme_test.py ARTICAP            check
-    tests/readme_test.py ARTICAP --update   write today's output into README.md
+    readme_test.py ARTICAP [--update]
+
+Runs the lines after "$ " of the ```console blocks, in order, in an empty folder that sees
+recordings/, and compares what they print, errors included; --update writes it into the README.
 """
 
 import difflib
@@ -15,43 +16,49 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[1]
 README = ROOT / "README.md"
-BLOCK = re.compile(r"^```console\n(.*?)^```$", re.M | re.S)
+BLOCK = re.compile(r"(?<=^```console\n)(.*?)(?=^```)", re.MULTILINE | re.DOTALL)
 
 
-def run_console(block, folder, environment):
-    """The block as it would look today: its commands, each followed by what it prints."""
-    shown = []
-    for line in block.split("\n"):
-        if not line.startswith("$ "):
-            continue
-        result = subprocess.run(["bash", "-c", line[2:]], cwd=folder, env=environment,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        if result.returncode != 0:
-            sys.exit(f"README.md: '{line[2:]}' exits with {result.returncode}:\n{result.stdout}")
-        shown.append(line + "\n" + result.stdout)
-    return "".join(shown)
+def run_session(articap, text):
+    """The README with what its commands print now."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "recordings").symlink_to(ROOT / "recordings")
+        environment = {**os.environ, "PATH": f"{articap.parent}:{os.environ['PATH']}",
+                       "LC_ALL": "C.UTF-8"}
+
+        def answer(block):
+            commands = [line for line in block[1].split("\n") if line.startswith("$ ")]
+            session = ""
+            for command in commands:
+                result = subprocess.run(["bash", "-c", command[2:]], cwd=folder, env=environment,
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                session += command + "\n" + result.stdout
+            return session
+
+        return BLOCK.sub(answer, text)
 
 
 def main():
-    articap, update = pathlib.Path(sys.argv[1]).resolve(), "--update" in sys.argv
-    before = README.read_text()
-    with tempfile.TemporaryDirectory() as folder:
-        for name in ("recordings", "maps"):
-            os.symlink(ROOT / name, pathlib.Path(folder) / name)
-        environment = dict(os.environ, PATH=f"{articap.parent}:{os.environ['PATH']}")
+    articap = pathlib.Path(sys.argv[1]).resolve()
+    written = README.read_text()
+    printed = run_session(articap, written)
+    if "--update" in sys.argv[2:]:
+        README.write_text(printed)
+        return 0
+    if not BLOCK.search(written):
+        print("README.md has lost its terminal session")
+        return 1
+    if printed != written:
+        print("README.md shows what the commands no longer print; look at the difference, then run\n"
+              "  tests/readme_test.py build/release/articap --update\n")
+        print("".join(difflib.unified_diff(written.splitlines(True), printed.splitlines(True),
+                                           "README.md", "printed now")))
+        return 1
+    return 0
 
-        def today(match):
-            return f"```console\n{run_console(match[1], folder, environment)}```"
 
-        after = BLOCK.sub(today, before)
-    if update:
-        README.write_text(after)
-    elif after != before:
-        difference = difflib.unified_diff(before.splitlines(), after.splitlines(), "README.md",
-                                          "what the commands print today", lineterm="")
-        sys.exit("\n".join(difference) + "\nRun tests/readme_test.py ARTICAP --update")
-
-
-main()
+if __name__ == "__main__":
+    sys.exit(main())

@@ -137,12 +137,13 @@ MarkerSet PatchFaceMarkers() {
   set.name = "patch";
   for (int i = 1; i <= 3; ++i) {
     const std::string number = std::to_string(i);
-    set.markers.push_back({"s" + number, true, false, false, "spectacles_" + number, "", 0});
+    set.markers.push_back(
+        {.name = "s" + number, .head_reference = true, .landmark = "spectacles_" + number});
   }
   for (const char* landmark :
        {"upper_lip_center", "lower_lip_center", "left_mouth_corner", "right_mouth_corner",
         "lower_lip_left", "lower_lip_right", "chin", "jaw_left", "nose_tip"})
-    set.markers.push_back({landmark, false, false, true, landmark, "", 2});
+    set.markers.push_back({.name = landmark, .face = true, .landmark = landmark, .offset_mm = 2});
   return set;
 }
 
