@@ -20,11 +20,13 @@ std::vector<Eigen::Vector3d> Moved(const Sim3d& transform,
   return moved;
 }
 
-}  // namespace
+constexpr std::ptrdiff_t kLeastOnSpectacles = 3;
 
-std::vector<AssignedLandmark> AssignLandmarks(const FaceSurface& surface,
-                                              std::span<const Eigen::Vector3d> points_in_rig,
-                                              double reach_mm) {
+bool IsOfSpectacles(const std::string& landmark) { return landmark.starts_with("spectacles"); }
+
+std::vector<AssignedLandmark> AssignNearestFirst(const FaceSurface& surface,
+                                                 std::span<const Eigen::Vector3d> points_in_rig,
+                                                 double reach_mm, bool with_spectacles) {
   struct Pair {
     double distance_mm;
     std::size_t point, place;
@@ -33,6 +35,7 @@ std::vector<AssignedLandmark> AssignLandmarks(const FaceSurface& surface,
   for (std::size_t i = 0; i < points_in_rig.size(); ++i)
     for (std::size_t k = 0; k < surface.places().size(); ++k) {
       const FaceSurface::NamedPlace& place = surface.places()[k];
+      if (!with_spectacles && IsOfSpectacles(place.landmark)) continue;
       const double distance_mm = (points_in_rig[i] - place.point_in_rig).norm();
       if (distance_mm <= reach_mm && FindLandmark(place.landmark))
         pairs.push_back({distance_mm, i, k});
@@ -46,6 +49,18 @@ std::vector<AssignedLandmark> AssignLandmarks(const FaceSurface& surface,
     assigned[pair.point] = {surface.places()[pair.place].landmark, pair.distance_mm};
   }
   return assigned;
+}
+
+}  // namespace
+
+std::vector<AssignedLandmark> AssignLandmarks(const FaceSurface& surface,
+                                              std::span<const Eigen::Vector3d> points_in_rig,
+                                              double reach_mm) {
+  auto assigned = AssignNearestFirst(surface, points_in_rig, reach_mm, /*with_spectacles=*/true);
+  const auto on_spectacles = std::ranges::count_if(
+      assigned, [](const AssignedLandmark& place) { return IsOfSpectacles(place.landmark); });
+  if (on_spectacles >= kLeastOnSpectacles) return assigned;
+  return AssignNearestFirst(surface, points_in_rig, reach_mm, /*with_spectacles=*/false);
 }
 
 Result<AdaptedRig> AdaptIdentity(const FaceRig& rig, std::span<const Eigen::Vector3d> cloud_mm,

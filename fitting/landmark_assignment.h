@@ -20,6 +20,8 @@ struct AssignedLandmark {
 };
 
 // The nearest pair of point and landmark first, each only once, none farther apart than reach_mm.
+// Landmarks of spectacles count where three of them find a point: else nobody wears any, and a
+// marker on the bridge of the nose is just that.
 std::vector<AssignedLandmark> AssignLandmarks(const FaceSurface& surface,
                                               std::span<const Eigen::Vector3d> points_in_rig,
                                               double reach_mm);

@@ -17,9 +17,9 @@ struct ProposeMapOptions {
   // speaker looks, to some 35 degrees) empty: every heading is tried.
   std::string up;
   std::string forward;
-  // A marker this near to a landmark sits at it; up to twice as far it sits beside it. mm of the
-  // rig.
-  double landmark_reach_mm = 8;
+  // A marker this near to a landmark, once the rig's identity is fitted, sits at it; somewhat
+  // farther off it sits beside it. mm of the rig.
+  double landmark_reach_mm = 10;
 };
 void VisitOptions(ProposeMapOptions& options, OptionVisitor& visit);
 
