@@ -35,7 +35,8 @@ struct AdaptedRig {
 
 // From an alignment with the rig as it is: takes turns at assigning landmarks, fitting the identity
 // sliders to those pairs, and refining the alignment with the rig that results, landmarks reaching
-// less far every time. On real faces a mouth may lie 15 mm from that of the average head.
+// less far every time. On real faces a mouth may lie 15 mm from that of the average head, so
+// that this is tried from places above and below, too; the fit of least cost wins.
 Result<AdaptedRig> AdaptIdentity(const FaceRig& rig, std::span<const Eigen::Vector3d> cloud_mm,
                                  const Sim3d& rig_from_cloud, const CloudModel& model);
 
