@@ -19,6 +19,7 @@ const std::vector<articap::VerbEntry>& Verbs() {
        articap::InfoCommand},
       {"convert", "between marker formats", articap::ConvertCommand},
       {"stabilize", "factor the movement of the head out", articap::StabilizeCommand},
+      {"map", "propose where each marker sits, from the cloud alone", articap::MapCommand},
       {"bind", "tie a speaker's reference pose to a rig, once", articap::BindCommand},
       {"fit", "markers in, articulatory parameters out", articap::FitCommand},
       {"synthesize", "a recording of somebody who never lived, with the truth",

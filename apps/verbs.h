@@ -14,6 +14,7 @@ using Verb = ExitCode (*)(const std::vector<std::string>& arguments);
 ExitCode InfoCommand(const std::vector<std::string>& arguments);
 ExitCode ConvertCommand(const std::vector<std::string>& arguments);
 ExitCode StabilizeCommand(const std::vector<std::string>& arguments);
+ExitCode MapCommand(const std::vector<std::string>& arguments);
 ExitCode BindCommand(const std::vector<std::string>& arguments);
 ExitCode FitCommand(const std::vector<std::string>& arguments);
 ExitCode SynthesizeCommand(const std::vector<std::string>& arguments);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/check.h"
 
@@ -14,6 +16,8 @@ constexpr int kGlyphWidth = 5;
 constexpr int kGlyphHeight = 7;
 constexpr int kAdvance = kGlyphWidth + 1;
 constexpr char kFirstGlyph = ' ';
+constexpr int kLabelScale = 2;  // of the labels on a sheet
+constexpr int kLineHeight = kLabelScale * (kGlyphHeight + 3);
 
 // Space to tilde; five columns a letter, the lowest bit on top.
 constexpr std::array<std::array<std::uint8_t, kGlyphWidth>, 95> kGlyphs{{
@@ -66,6 +70,21 @@ void Paste(Picture& sheet, const Picture& picture, int left, int top) {
                 sheet.pixel(left, top + y));
 }
 
+// Breaks a label behind blanks and underscores into lines that fit; what has no place to break
+// sticks out.
+std::vector<std::string> WrapLabel(const std::string& label, int width) {
+  std::vector<std::string> lines(1);
+  for (std::size_t begin = 0; begin < label.size();) {
+    const std::size_t end = std::min(label.find_first_of(" _", begin), label.size() - 1) + 1;
+    const std::string word = label.substr(begin, end - begin);
+    if (!lines.back().empty() && TextWidth(lines.back() + word, kLabelScale) > width)
+      lines.emplace_back();
+    lines.back() += word;
+    begin = end;
+  }
+  return lines;
+}
+
 }  // namespace
 
 void DrawText(Picture& picture, std::string_view text, int x, int y, int scale,
@@ -95,7 +114,13 @@ Picture ContactSheet(const std::vector<LabelledPicture>& pictures, int columns) 
     cell_width = std::max(cell_width, labelled.picture.width);
     cell_height = std::max(cell_height, labelled.picture.height);
   }
-  const int label_height = 3 * kGlyphHeight;
+  std::vector<std::vector<std::string>> labels;
+  std::size_t num_lines = 1;
+  for (const LabelledPicture& labelled : pictures) {
+    labels.push_back(WrapLabel(labelled.label, cell_width));
+    num_lines = std::max(num_lines, labels.back().size());
+  }
+  const int label_height = static_cast<int>(num_lines) * kLineHeight;
   const int gap = 6;
   const int rows = (static_cast<int>(pictures.size()) + columns - 1) / columns;
   const int pitch_x = cell_width + gap;
@@ -105,11 +130,13 @@ Picture ContactSheet(const std::vector<LabelledPicture>& pictures, int columns) 
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const int left = gap + static_cast<int>(i) % columns * pitch_x;
     const int top = gap + static_cast<int>(i) / columns * pitch_y;
-    const std::string& label = pictures[i].label;
     Paste(sheet, pictures[i].picture, left, top);
-    const int scale = TextWidth(label, 2) <= cell_width ? 2 : 1;
-    DrawText(sheet, label, left + std::max(0, (cell_width - TextWidth(label, scale)) / 2),
-             top + cell_height + (label_height - scale * kGlyphHeight) / 2, scale);
+    int line_top = top + cell_height + 2 * kLabelScale;
+    for (const std::string& line : labels[i]) {
+      DrawText(sheet, line, left + std::max(0, (cell_width - TextWidth(line, kLabelScale)) / 2),
+               line_top, kLabelScale);
+      line_top += kLineHeight;
+    }
   }
   return sheet;
 }

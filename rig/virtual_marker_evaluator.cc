@@ -62,6 +62,29 @@ Form FormOf(const FaceRig& rig, std::span<const int> linear_columns,
   return form;
 }
 
+// x, y, z of every lane, and one lane more.
+using Lanes = std::array<std::array<double, kMaxLanes + 1>, 3>;
+
+// sum over the lanes of (x, y, z) x right.
+Eigen::Vector3d CrossSum(int lanes, const double* x, const double* y, const double* z,
+                         const Lanes& right) {
+  double sum_x = 0, sum_y = 0, sum_z = 0;
+  for (int lane = 0; lane < lanes; ++lane) {
+    sum_x += y[lane] * right[2][lane] - z[lane] * right[1][lane];
+    sum_y += z[lane] * right[0][lane] - x[lane] * right[2][lane];
+    sum_z += x[lane] * right[1][lane] - y[lane] * right[0][lane];
+  }
+  return {sum_x, sum_y, sum_z};
+}
+
+// Every lane turned by a matrix.
+void Turn(const Eigen::Matrix3d& matrix, int lanes, const Lanes& source, Lanes* target) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (int lane = 0; lane < lanes; ++lane)
+      (*target)[axis][lane] = matrix(axis, 0) * source[0][lane] +
+                              matrix(axis, 1) * source[1][lane] + matrix(axis, 2) * source[2][lane];
+}
+
 // The triangles around a vertex as (a, b), turned so that the vertex comes first: (vertex, a, b).
 std::vector<std::pair<int, int>> FanAround(const TriangleMesh& mesh, int vertex) {
   std::vector<std::pair<int, int>> fan;
@@ -226,19 +249,16 @@ Eigen::Vector3d VirtualMarkerEvaluator::Evaluate(const Pose& pose, const Marker&
   return position;
 }
 
-// u e1, and its derivatives added to the Jacobian. With edges e_j round v1, g_j = e_(j+1) -
-// e_(j-1):
-//   N = sum_j e_j x e_(j+1) = 1/2 sum_j e_j x g_j,   dN = sum_j de_j x g_j,
-//   e1 = N / |N|,                                      de1 = (I - e1 e1^T) dN / |N|,
-// and, as (R f) x g = R (f x (R^T g)), the derivatives need no turning edge by edge.
-template <bool kWithJacobian>
-Eigen::Vector3d VirtualMarkerEvaluator::AddNormal(const Pose& pose, const Marker& marker,
-                                                  double* jacobian) const {
-  const int lanes = marker.num_lanes;
-  const Eigen::Matrix3d& r = pose.jaw_rotation;
-  using Lanes = std::array<std::array<double, kMaxLanes + 1>, 3>;
+// The edges round v1 of a posed marker, one a lane; the lane beyond the last is always zero.
+struct VirtualMarkerEvaluator::Ring {
+  Lanes turned;       // the jaw-weighted arms, before the jaw turns
+  Lanes edges;        // e_j
+  Lanes differences;  // g_j = e_(j+1) - e_(j-1)
+};
 
-  Lanes turned, edges, differences, turned_differences;
+void VirtualMarkerEvaluator::PoseRing(const Pose& pose, const Marker& marker, Ring* ring) {
+  const int lanes = marker.num_lanes;
+  auto& [turned, edges, differences] = *ring;
   const double* const constant = marker.edge_forms.data();
   for (int axis = 0; axis < 3; ++axis) {
     std::copy_n(constant + axis * lanes, lanes, edges[axis].begin());
@@ -248,87 +268,85 @@ Eigen::Vector3d VirtualMarkerEvaluator::AddNormal(const Pose& pose, const Marker
     const double value = pose.parameters[marker.columns[k]];
     const double* const form = constant + (k + 1) * 6 * lanes;
     for (int axis = 0; axis < 3; ++axis)
-      for (int lane = 0; lane < lanes; ++lane)
+      for (int lane = 0; lane < lanes; ++lane) {
         edges[axis][lane] += value * form[axis * lanes + lane];
-    if (!marker.turns) continue;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int lane = 0; lane < lanes; ++lane)
         turned[axis][lane] += value * form[(3 + axis) * lanes + lane];
+      }
   }
-  if (marker.turns)
+  if (marker.turns) {
+    const Eigen::Matrix3d& r = pose.jaw_rotation;
     for (int axis = 0; axis < 3; ++axis)
       for (int lane = 0; lane < lanes; ++lane)
         edges[axis][lane] += r(axis, 0) * turned[0][lane] + r(axis, 1) * turned[1][lane] +
                              r(axis, 2) * turned[2][lane] +
                              marker.edge_slide_weights[lane] * pose.jaw_slide_mm[axis];
-
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  }
   for (int axis = 0; axis < 3; ++axis) {
-    edges[axis][lanes] = 0;  // the lane beyond the ends of a fan
+    edges[axis][lanes] = 0;
     for (int lane = 0; lane < lanes; ++lane)
       differences[axis][lane] =
           edges[axis][marker.next_lane[lane]] - edges[axis][marker.previous_lane[lane]];
   }
-  const auto cross_sum = [lanes](const double* x, const double* y, const double* z,
-                                 const Lanes& right) {
-    double sum_x = 0, sum_y = 0, sum_z = 0;
-    for (int lane = 0; lane < lanes; ++lane) {
-      sum_x += y[lane] * right[2][lane] - z[lane] * right[1][lane];
-      sum_y += z[lane] * right[0][lane] - x[lane] * right[2][lane];
-      sum_z += x[lane] * right[1][lane] - y[lane] * right[0][lane];
-    }
-    return Eigen::Vector3d(sum_x, sum_y, sum_z);
-  };
-  normal = 0.5 * cross_sum(edges[0].data(), edges[1].data(), edges[2].data(), differences);
+}
+
+// u e1, and its derivatives added to the Jacobian. With edges e_j round v1, g_j = e_(j+1) -
+// e_(j-1):
+//   N = sum_j e_j x e_(j+1) = 1/2 sum_j e_j x g_j,   e1 = N / |N|.
+template <bool kWithJacobian>
+Eigen::Vector3d VirtualMarkerEvaluator::AddNormal(const Pose& pose, const Marker& marker,
+                                                  double* jacobian) const {
+  Ring ring;
+  PoseRing(pose, marker, &ring);
+  const Eigen::Vector3d normal =
+      0.5 * CrossSum(marker.num_lanes, ring.edges[0].data(), ring.edges[1].data(),
+                     ring.edges[2].data(), ring.differences);
   const double length = normal.norm();
   if (length == 0) return Eigen::Vector3d::Zero();
-  const Eigen::Vector3d e1 = normal / length;
-  if constexpr (!kWithJacobian) return marker.u_mm * e1;
+  if constexpr (kWithJacobian) AddNormalDerivatives(pose, marker, ring, normal, jacobian);
+  return (marker.u_mm / length) * normal;
+}
 
-  if (marker.turns)
-    for (int axis = 0; axis < 3; ++axis)
-      for (int lane = 0; lane < lanes; ++lane)
-        turned_differences[axis][lane] = r(0, axis) * differences[0][lane] +
-                                         r(1, axis) * differences[1][lane] +
-                                         r(2, axis) * differences[2][lane];
-  Eigen::Map<Jacobian> columns(jacobian, 3, static_cast<int>(marker.columns.size()));
+// dN = sum_j de_j x g_j and de1 = (I - e1 e1^T) dN / |N|; as (R f) x g = R (f x (R^T g)), the
+// derivatives need no turning edge by edge.
+void VirtualMarkerEvaluator::AddNormalDerivatives(const Pose& pose, const Marker& marker,
+                                                  const Ring& ring, const Eigen::Vector3d& normal,
+                                                  double* jacobian) const {
+  const int lanes = marker.num_lanes;
+  const Lanes& differences = ring.differences;
+  const double length = normal.norm();
+  const Eigen::Vector3d e1 = normal / length;
   const double factor = marker.u_mm / length;
-  const auto add_derivative = [&](int column, const Eigen::Vector3d& d_normal) {
+  Eigen::Map<Jacobian> columns(jacobian, 3, static_cast<int>(marker.columns.size()));
+  const auto add = [&](int column, const Eigen::Vector3d& d_normal) {
     columns.col(column) += factor * (d_normal - e1.dot(d_normal) * e1);
   };
-  for (int k = 0; k < marker.num_linear; ++k) {
-    const double* const form = constant + (k + 1) * 6 * lanes;
-    Eigen::Vector3d d_normal = cross_sum(form, form + lanes, form + 2 * lanes, differences);
-    if (marker.turns)
-      d_normal +=
-          r * cross_sum(form + 3 * lanes, form + 4 * lanes, form + 5 * lanes, turned_differences);
-    add_derivative(k, d_normal);
+  const auto form = [&](int k) { return marker.edge_forms.data() + (k + 1) * 6 * lanes; };
+  if (!marker.turns) {
+    for (int k = 0; k < marker.num_linear; ++k)
+      add(k, CrossSum(lanes, form(k), form(k) + lanes, form(k) + 2 * lanes, differences));
+    return;
   }
-  if (!marker.turns) return marker.u_mm * e1;
 
+  Lanes turned_back;
+  Turn(pose.jaw_rotation.transpose(), lanes, differences, &turned_back);
+  for (int k = 0; k < marker.num_linear; ++k) {
+    const double* const turned_form = form(k) + 3 * lanes;
+    add(k, CrossSum(lanes, form(k), form(k) + lanes, form(k) + 2 * lanes, differences) +
+               pose.jaw_rotation * CrossSum(lanes, turned_form, turned_form + lanes,
+                                            turned_form + 2 * lanes, turned_back));
+  }
   int column = marker.num_linear;
   if (rotation_parameter_ >= 0) {
-    // dR f = axis x (R f), and R f x ... again by turning the differences back.
     Lanes swung;
-    const Eigen::Matrix3d& d = pose.jaw_derivative;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int lane = 0; lane < lanes; ++lane)
-        swung[axis][lane] = d(axis, 0) * turned[0][lane] + d(axis, 1) * turned[1][lane] +
-                            d(axis, 2) * turned[2][lane];
-    add_derivative(column++,
-                   cross_sum(swung[0].data(), swung[1].data(), swung[2].data(), differences));
+    Turn(pose.jaw_derivative, lanes, ring.turned, &swung);
+    add(column++, CrossSum(lanes, swung[0].data(), swung[1].data(), swung[2].data(), differences));
   }
-  if (thrust_parameter_ >= 0 || shift_parameter_ >= 0) {
-    Eigen::Vector3d weighted_difference = Eigen::Vector3d::Zero();
-    for (int axis = 0; axis < 3; ++axis)
-      for (int lane = 0; lane < lanes; ++lane)
-        weighted_difference[axis] += marker.edge_slide_weights[lane] * differences[axis][lane];
-    if (thrust_parameter_ >= 0)
-      add_derivative(column++, thrust_direction_.cross(weighted_difference));
-    if (shift_parameter_ >= 0)
-      add_derivative(column++, shift_direction_.cross(weighted_difference));
-  }
-  return marker.u_mm * e1;
+  Eigen::Vector3d weighted_difference = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis)
+    for (int lane = 0; lane < lanes; ++lane)
+      weighted_difference[axis] += marker.edge_slide_weights[lane] * differences[axis][lane];
+  if (thrust_parameter_ >= 0) add(column++, thrust_direction_.cross(weighted_difference));
+  if (shift_parameter_ >= 0) add(column++, shift_direction_.cross(weighted_difference));
 }
 
 Eigen::Vector3d VirtualMarkerEvaluator::Position(const Pose& pose, int marker) const {

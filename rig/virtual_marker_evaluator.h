@@ -72,8 +72,12 @@ class VirtualMarkerEvaluator {
   void CompileRing(const FaceRig& rig, int vertex, Marker* marker) const;
   template <bool kWithJacobian>
   Eigen::Vector3d Evaluate(const Pose& pose, const Marker& marker, double* jacobian) const;
+  struct Ring;
+  static void PoseRing(const Pose& pose, const Marker& marker, Ring* ring);
   template <bool kWithJacobian>
   Eigen::Vector3d AddNormal(const Pose& pose, const Marker& marker, double* jacobian) const;
+  void AddNormalDerivatives(const Pose& pose, const Marker& marker, const Ring& ring,
+                            const Eigen::Vector3d& normal, double* jacobian) const;
 
   int num_parameters_ = 0;
   int rotation_parameter_ = -1;

@@ -86,8 +86,10 @@ struct FrameNumbers {
 // A file counts its frames by their bytes: without points and channels there are none.
 FrameNumbers NumbersOf(const MarkerRecording& recording) {
   const bool has_data = recording.tracks.num_markers() > 0 || !recording.analog.channels.empty();
-  return {std::max(recording.tracks.first_frame(), 0),
-          has_data ? recording.tracks.num_frames() : 0};
+  const int count = has_data ? recording.tracks.num_frames() : 0;
+  // Only the TRIAL group, which a file without frames lacks, has room for larger numbers.
+  const int largest = count > 0 ? std::numeric_limits<int>::max() : kMost16Bit;
+  return {std::clamp(recording.tracks.first_frame(), 0, largest), count};
 }
 
 void WritePointGroup(const MarkerRecording& recording, float scale, int data_block,

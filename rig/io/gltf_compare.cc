@@ -36,8 +36,7 @@ class FileComparison {
  public:
   FileComparison(const FaceRig& rig, GltfModel model)
       : rig_(rig), model_(std::move(model)), parts_(PartMeshes(rig.definition())) {
-    for (std::size_t i = 0; i < model_.nodes.size(); ++i)
-      if (model_.nodes[i].name == "jaw") jaw_node_ = static_cast<int>(i);
+    if (rig.definition().jaw) jaw_node_ = model_.skins.at(0).joints.at(1);
   }
 
   double Deviation_mm(const Eigen::VectorXd& parameters, const std::vector<float>& weights,

@@ -102,7 +102,7 @@ class MorphRigBuilder {
     }
     positions_mm_.reserve(source_.vertices.size());
     for (const Eigen::Vector3d& vertex : source_.vertices)
-      positions_mm_.push_back(rig_from_file_ * vertex - origin_mm);
+      positions_mm_.emplace_back(rig_from_file_ * vertex - origin_mm);
     return {};
   }
 

@@ -207,6 +207,10 @@ TEST(TrcTest, RealRecordingsAreWhole) {
   EXPECT_EQ(jaw->tracks.names()[10], "NoseTop");
   EXPECT_THAT(jaw->warnings, IsEmpty());
   EXPECT_FALSE(ImplausibleSize(*jaw));
+  const auto cheeks = ReadMarkers(TestDataPath("animface/cheeks.trc"));
+  ASSERT_TRUE(cheeks) << cheeks.error().message;
+  EXPECT_EQ(cheeks->tracks.names(), jaw->tracks.names());
+  EXPECT_EQ(cheeks->tracks.num_frames(), 1499);
   const auto speech = ReadMarkers(TestDataPath("speech/F01_B01_S01_R01_N.trc"));
   ASSERT_TRUE(speech) << speech.error().message;
   EXPECT_THAT(speech->tracks.names(),

@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <numeric>
-
 namespace articap {
 namespace {
 
@@ -42,6 +40,22 @@ TEST(Label, SheetHoldsEveryPictureOnce) {
     for (int x = 0; x < sheet.width; ++x)
       green += sheet.pixel(x, y)[0] == 0 && sheet.pixel(x, y)[1] == 255;
   EXPECT_EQ(green, 10 * (20 + 21 + 22 + 23 + 24));
+}
+
+TEST(Label, LongLabelsBreakInsteadOfRunningIntoTheNext) {
+  const Picture white = FilledPicture(60, 10, Eigen::Vector3f::Ones());
+  const auto dark_columns = [](const Picture& sheet, int from, int to) {
+    int count = 0;
+    for (int x = from; x < to; ++x)
+      for (int y = 0; y < sheet.height; ++y) count += sheet.pixel(x, y)[0] < 128;
+    return count;
+  };
+  const Picture short_labels = ContactSheet({{"ab", white}, {"", white}}, 2);
+  const Picture long_labels = ContactSheet({{"ab_cd ef", white}, {"", white}}, 2);
+  EXPECT_GT(long_labels.height, short_labels.height);
+  EXPECT_EQ(long_labels.width, short_labels.width);
+  EXPECT_GT(dark_columns(long_labels, 6, 66), 0);
+  EXPECT_EQ(dark_columns(long_labels, 66, long_labels.width), 0);
 }
 
 }  // namespace

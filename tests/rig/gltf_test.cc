@@ -6,6 +6,7 @@
 
 #include "core/file_io.h"
 #include "rig/default_head/default_head.h"
+#include "rig/io/gltf_compare.h"
 #include "rig/io/gltf_export.h"
 #include "rig/io/gltf_import.h"
 #include "rig/io/import.h"
@@ -75,8 +76,25 @@ TEST(GltfExport, DeviatesByFloatRoundingAlone) {
   }
 }
 
-// The comparison itself must see a file that does not do what the rig does: poses that the file is
-// made to miss by editing the jaw's pivot are found by evaluating it as other programs would.
+TEST(GltfExport, TheComparisonSeesAFileThatDiffers) {
+  const FaceRig rig = MakeToyRig();
+  const RigAnimation animation = Speech(rig, 4);
+  const GltfModel model = ParseGltf(ExportedBytes(rig, animation), "glb", std::nullopt).value();
+  const TargetPlan plan = PlanTargets(rig);
+  EXPECT_LT(CompareWithRig(rig, plan, model, animation).largest_deviation_mm, 1e-3);
+
+  GltfModel other_pivot = model;
+  other_pivot.skins[0].inverse_bind[1](1, 3) += 0.005f;
+  EXPECT_NEAR(CompareWithRig(rig, plan, other_pivot, animation).largest_deviation_mm, 5, 2);
+  GltfModel other_target = model;
+  other_target.meshes[0].primitives[0].targets[0][20].x() += 0.002f;
+  EXPECT_GT(CompareWithRig(rig, plan, other_target, animation).largest_deviation_mm, 0.1);
+  GltfModel other_key = model;
+  for (GltfModel::Channel& channel : other_key.channels)
+    if (channel.path == "translation") channel.values[3] += 0.004f;  // x of the second frame
+  EXPECT_NEAR(CompareWithRig(rig, plan, other_key, animation).largest_deviation_mm, 4, 1);
+}
+
 TEST(GltfExport, TheFileHoldsJawAndTargetsAsOtherProgramsReadThem) {
   const FaceRig rig = MakeDefaultHead().value();
   const auto model = ParseGltf(ExportedBytes(rig, std::nullopt), "rig.glb", std::nullopt);
