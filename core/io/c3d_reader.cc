@@ -91,7 +91,10 @@ void DecodePoints(const C3dBytes& bytes, const C3dLayout& layout, const std::vec
           DecodePoint(bytes, layout, frame_offset + points[marker] * 4 * layout.word_bytes);
       if (!point.status.is_valid) continue;
       const bool has_status = point.status.residual != 0 || point.status.cameras != 0;
-      if (!point.position.allFinite()) {
+      // In mm, too, it must be a number that a C3D file can hold.
+      constexpr double kLargest_mm = std::numeric_limits<float>::max();
+      if (!(mm_per_unit * point.position.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <=
+            kLargest_mm)) {
         ++counts.not_finite;
       } else if (zero_is_missing && !has_status && point.position.isZero(0)) {
         ++counts.at_zero;
