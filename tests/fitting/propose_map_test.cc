@@ -73,8 +73,12 @@ TEST(MarkerMotionTest, MarkersOnTheSkullAreStillWhileTheHeadMoves) {
   ASSERT_EQ(motion.markers.size(), 35u);
   EXPECT_TRUE(motion.left_out.empty());
   for (const MarkerMotion::Marker& marker : motion.markers) {
-    if (marker.name.starts_with("spectacles")) EXPECT_LT(marker.motion_mm, 0.2) << marker.name;
-    if (marker.name == "chin") EXPECT_GT(marker.motion_mm, 1);
+    if (marker.name.starts_with("spectacles")) {
+      EXPECT_LT(marker.motion_mm, 0.2) << marker.name;
+    }
+    if (marker.name == "chin") {
+      EXPECT_GT(marker.motion_mm, 1);
+    }
   }
 }
 
