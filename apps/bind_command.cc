@@ -25,7 +25,8 @@ Result<std::string> MarkersOfBinding(const Binding& binding, const FaceRig& rig)
   const Result<Eigen::VectorXd> pose = ReferenceParameters(binding, *bound_rig);
   if (!pose) return tl::unexpected(pose.error());
   const VirtualMarkerEvaluator evaluator(*bound_rig, binding.virtual_markers);
-  const Eigen::Matrix3Xd positions_mm = evaluator.Positions(*pose);
+  const Eigen::Matrix3Xd positions_mm =
+      evaluator.Positions({pose->data(), static_cast<std::size_t>(pose->size())});
   std::vector<std::string> names;
   std::vector<Eigen::Vector3d> virtual_in_rig_mm;
   for (Eigen::Index i = 0; i < positions_mm.cols(); ++i) {

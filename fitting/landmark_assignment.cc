@@ -20,11 +20,17 @@ std::vector<Eigen::Vector3d> Moved(const Sim3d& transform,
   return moved;
 }
 
-}  // namespace
+// Where a smooth face lets the cloud slip up or down by a lip's height, one of these starts is
+// right, mm.
+constexpr double kLifts_mm[] = {0, -10, 10, -20, 20};
 
-std::vector<AssignedLandmark> AssignLandmarks(const FaceSurface& surface,
-                                              std::span<const Eigen::Vector3d> points_in_rig,
-                                              double reach_mm) {
+constexpr std::ptrdiff_t kLeastOnSpectacles = 3;
+
+bool IsOfSpectacles(const std::string& landmark) { return landmark.starts_with("spectacles"); }
+
+std::vector<AssignedLandmark> AssignNearestFirst(const FaceSurface& surface,
+                                                 std::span<const Eigen::Vector3d> points_in_rig,
+                                                 double reach_mm, bool with_spectacles) {
   struct Pair {
     double distance_mm;
     std::size_t point, place;
@@ -33,6 +39,7 @@ std::vector<AssignedLandmark> AssignLandmarks(const FaceSurface& surface,
   for (std::size_t i = 0; i < points_in_rig.size(); ++i)
     for (std::size_t k = 0; k < surface.places().size(); ++k) {
       const FaceSurface::NamedPlace& place = surface.places()[k];
+      if (!with_spectacles && IsOfSpectacles(place.landmark)) continue;
       const double distance_mm = (points_in_rig[i] - place.point_in_rig).norm();
       if (distance_mm <= reach_mm && FindLandmark(place.landmark))
         pairs.push_back({distance_mm, i, k});
@@ -48,8 +55,8 @@ std::vector<AssignedLandmark> AssignLandmarks(const FaceSurface& surface,
   return assigned;
 }
 
-Result<AdaptedRig> AdaptIdentity(const FaceRig& rig, std::span<const Eigen::Vector3d> cloud_mm,
-                                 const Sim3d& rig_from_cloud, const CloudModel& model) {
+Result<AdaptedRig> AdaptFrom(const FaceRig& rig, std::span<const Eigen::Vector3d> cloud_mm,
+                             const Sim3d& rig_from_cloud, const CloudModel& model) {
   auto surface = FaceSurface::Create(rig);
   if (!surface) return tl::unexpected(surface.error());
   AdaptedRig adapted{rig, *std::move(surface), {rig_from_cloud, 0}};
@@ -74,7 +81,34 @@ Result<AdaptedRig> AdaptIdentity(const FaceRig& rig, std::span<const Eigen::Vect
     adapted.fit = RefineCloudAlignment(adapted.surface, cloud_mm, adapted.fit.rig_from_cloud, wide,
                                        /*at_landmarks=*/true);
   }
+  adapted.fit = RefineCloudAlignment(adapted.surface, cloud_mm, adapted.fit.rig_from_cloud, model,
+                                     /*at_landmarks=*/true);
   return adapted;
+}
+
+}  // namespace
+
+std::vector<AssignedLandmark> AssignLandmarks(const FaceSurface& surface,
+                                              std::span<const Eigen::Vector3d> points_in_rig,
+                                              double reach_mm) {
+  auto assigned = AssignNearestFirst(surface, points_in_rig, reach_mm, /*with_spectacles=*/true);
+  const auto on_spectacles = std::ranges::count_if(
+      assigned, [](const AssignedLandmark& place) { return IsOfSpectacles(place.landmark); });
+  if (on_spectacles >= kLeastOnSpectacles) return assigned;
+  return AssignNearestFirst(surface, points_in_rig, reach_mm, /*with_spectacles=*/false);
+}
+
+Result<AdaptedRig> AdaptIdentity(const FaceRig& rig, std::span<const Eigen::Vector3d> cloud_mm,
+                                 const Sim3d& rig_from_cloud, const CloudModel& model) {
+  std::optional<AdaptedRig> best;
+  for (const double lift_mm : kLifts_mm) {
+    Sim3d start = rig_from_cloud;
+    start.translation_mm.y() += lift_mm;
+    auto adapted = AdaptFrom(rig, cloud_mm, start, model);
+    if (!adapted) return tl::unexpected(adapted.error());
+    if (!best || adapted->fit.cost < best->fit.cost) best = *std::move(adapted);
+  }
+  return *std::move(best);
 }
 
 }  // namespace articap

@@ -20,6 +20,8 @@ struct AssignedLandmark {
 };
 
 // The nearest pair of point and landmark first, each only once, none farther apart than reach_mm.
+// Landmarks of spectacles count where three of them find a point: else nobody wears any, and a
+// marker on the bridge of the nose is just that.
 std::vector<AssignedLandmark> AssignLandmarks(const FaceSurface& surface,
                                               std::span<const Eigen::Vector3d> points_in_rig,
                                               double reach_mm);
@@ -33,7 +35,8 @@ struct AdaptedRig {
 
 // From an alignment with the rig as it is: takes turns at assigning landmarks, fitting the identity
 // sliders to those pairs, and refining the alignment with the rig that results, landmarks reaching
-// less far every time. On real faces a mouth may lie 15 mm from that of the average head.
+// less far every time. On real faces a mouth may lie 15 mm from that of the average head, so
+// that this is tried from places above and below, too; the fit of least cost wins.
 Result<AdaptedRig> AdaptIdentity(const FaceRig& rig, std::span<const Eigen::Vector3d> cloud_mm,
                                  const Sim3d& rig_from_cloud, const CloudModel& model);
 

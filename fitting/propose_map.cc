@@ -39,6 +39,8 @@ constexpr std::size_t kLeastHeadReferences = 3;
 constexpr double kLargestMedianDistance_mm = 6;
 // A runner-up whose cost is within this factor leaves the orientation in doubt.
 constexpr double kClearlyWorse = 1.1;
+// Markers up to so many times the reach of landmarks sit beside them.
+constexpr double kBesideReach = 1.6;
 constexpr int kHeadings = 5;
 
 template <class Things, class Thing>
@@ -244,8 +246,9 @@ void VisitOptions(ProposeMapOptions& options, OptionVisitor& visit) {
         "axis of the recording that points up, e.g. +z; else +y and +z are tried");
   visit("forward", options.forward,
         "axis of the recording that the speaker looks along, e.g. -y; else all headings are tried");
-  visit("landmark_reach_mm", options.landmark_reach_mm,
-        "a marker this near to a landmark sits at it, up to twice as far beside it; mm of the rig");
+  visit(
+      "landmark_reach_mm", options.landmark_reach_mm,
+      "a marker this near to a landmark sits at it, a little farther off beside it; mm of the rig");
 }
 
 Result<StageResult<MarkerSet>> ProposeMap(const StageTracks& reference, const std::string& name,
@@ -264,8 +267,9 @@ Result<StageResult<MarkerSet>> ProposeMap(const StageTracks& reference, const st
 
   const auto adapted = AdaptIdentity(rig, cloud_mm, alignment->rig_from_cloud, icp_options.model);
   if (!adapted) return tl::unexpected(adapted.error());
-  const std::vector<PlacedMarker> markers = PlaceMarkers(
-      motion, adapted->fit.rig_from_cloud, adapted->surface, rig, 2 * options.landmark_reach_mm);
+  const std::vector<PlacedMarker> markers =
+      PlaceMarkers(motion, adapted->fit.rig_from_cloud, adapted->surface, rig,
+                   kBesideReach * options.landmark_reach_mm);
   StageResult<MarkerSet> result{MakeSet(name, markers, options), {}};
   result.report.stage = "map";
   result.report.options = EchoOptions(options);

@@ -39,9 +39,10 @@ class FileComparison {
     if (rig.definition().jaw) jaw_node_ = model_.skins.at(0).joints.at(1);
   }
 
-  double Deviation_mm(const Eigen::VectorXd& parameters, const std::vector<float>& weights,
-                      const Eigen::Vector3f& jaw_translation_m,
-                      const Eigen::Quaternionf& jaw_rotation) {
+  // All distances in mm.
+  double LargestDistance(const Eigen::VectorXd& parameters, const std::vector<float>& weights,
+                         const Eigen::Vector3f& jaw_translation_m,
+                         const Eigen::Quaternionf& jaw_rotation) {
     if (jaw_node_ >= 0)
       model_.nodes[jaw_node_].parent_from_node =
           Eigen::Translation3f(jaw_translation_m) * jaw_rotation.normalized();
@@ -59,15 +60,15 @@ class FileComparison {
     return largest_mm;
   }
 
-  double Deviation_mm(const Eigen::VectorXd& parameters, const TargetPlan& plan) {
+  double LargestDistance(const Eigen::VectorXd& parameters, const TargetPlan& plan) {
     JawPose jaw;
     if (rig_.definition().jaw) jaw = PoseJaw(rig_, parameters);
-    return Deviation_mm(parameters, TargetWeights(plan, parameters),
-                        jaw.translation_m.cast<float>(), jaw.rotation.cast<float>());
+    return LargestDistance(parameters, TargetWeights(plan, parameters),
+                           jaw.translation_m.cast<float>(), jaw.rotation.cast<float>());
   }
 
   // A key frame as the animation's channels hold it.
-  double KeyFrameDeviation_mm(const RigAnimation& animation, int frame) {
+  double DistanceInKeyFrame(const RigAnimation& animation, int frame) {
     const auto values = [&](const char* path, std::size_t width) {
       for (const GltfModel::Channel& channel : model_.channels)
         if (channel.path == path)
@@ -78,9 +79,9 @@ class FileComparison {
     };
     const std::vector<float> t = values("translation", 3);
     const std::vector<float> q = values("rotation", 4);
-    return Deviation_mm(animation.parameters.row(frame).transpose(),
-                        values("weights", model_.meshes[0].target_names.size()), {t[0], t[1], t[2]},
-                        {q[3], q[0], q[1], q[2]});
+    return LargestDistance(animation.parameters.row(frame).transpose(),
+                           values("weights", model_.meshes[0].target_names.size()),
+                           {t[0], t[1], t[2]}, {q[3], q[0], q[1], q[2]});
   }
 
   const GltfModel& model() const { return model_; }
@@ -102,11 +103,11 @@ ExportReport CompareWithRig(const FaceRig& rig, const TargetPlan& plan, GltfMode
     report.largest_deviation_mm = std::max(report.largest_deviation_mm, deviation_mm);
     ++report.poses_compared;
   };
-  for (const Eigen::VectorXd& pose : SamplePoses(rig)) note(comparison.Deviation_mm(pose, plan));
+  for (const Eigen::VectorXd& pose : SamplePoses(rig)) note(comparison.LargestDistance(pose, plan));
   if (animation) {
     const int num_frames = static_cast<int>(animation->parameters.rows());
     for (int frame = 0; frame < num_frames; frame += std::max(1, num_frames / kKeyFrames))
-      note(comparison.KeyFrameDeviation_mm(*animation, frame));
+      note(comparison.DistanceInKeyFrame(*animation, frame));
   }
   report.target_names = comparison.model().meshes[0].target_names;
   return report;

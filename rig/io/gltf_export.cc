@@ -123,7 +123,7 @@ class GlbBuilder {
     TriangleMesh mesh;
     std::vector<float> colors;
     for (const int vertex : part.rig_vertex) {
-      mesh.vertices.push_back(rig_.neutral_mesh().vertices[vertex] / kMetre_mm);
+      mesh.vertices.emplace_back(rig_.neutral_mesh().vertices[vertex] / kMetre_mm);
       for (const float channel : rig_.definition().colors[vertex]) colors.push_back(channel);
     }
     mesh.triangles = part.triangles;

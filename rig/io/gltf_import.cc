@@ -34,13 +34,13 @@ void AppendPrimitive(const GltfModel& model, int node, const GltfModel::Primitiv
   for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
     const Eigen::Matrix4d scene_from_vertex =
         SceneFromVertex(model, node, primitive, i).cast<double>();
-    linear.push_back(scene_from_vertex.topLeftCorner<3, 3>());
-    source.vertices.push_back(linear.back() * primitive.positions[i].cast<double>() +
-                              scene_from_vertex.topRightCorner<3, 1>());
+    linear.emplace_back(scene_from_vertex.topLeftCorner<3, 3>());
+    source.vertices.emplace_back(linear.back() * primitive.positions[i].cast<double>() +
+                                 scene_from_vertex.topRightCorner<3, 1>());
   }
   source.colors.insert(source.colors.end(), primitive.colors.begin(), primitive.colors.end());
   for (const Eigen::Vector3i& triangle : primitive.triangles) {
-    source.triangles.push_back(triangle + Eigen::Vector3i::Constant(first));
+    source.triangles.emplace_back(triangle + Eigen::Vector3i::Constant(first));
     source.triangle_group.push_back(group);
   }
   for (std::size_t target = 0; target < primitive.targets.size(); ++target) {
@@ -49,7 +49,7 @@ void AppendPrimitive(const GltfModel& model, int node, const GltfModel::Primitiv
       const Eigen::Vector3f& displacement = primitive.targets[target][i];
       if (displacement.isZero(0)) continue;
       field.vertices.push_back(first + static_cast<int>(i));
-      field.displacements_mm.push_back(linear[i] * displacement.cast<double>());
+      field.displacements_mm.emplace_back(linear[i] * displacement.cast<double>());
     }
   }
 }

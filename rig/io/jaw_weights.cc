@@ -37,7 +37,7 @@ std::vector<double> JawWeights(const ImportRecipe::Jaw& jaw, const TriangleMesh&
   std::vector<Eigen::Vector3d> ways_mm;
   double longest_mm = 0;
   for (std::size_t i = 0; i < opening_mm.size(); ++i) {
-    ways_mm.push_back(turn * (mesh.vertices[i] - jaw.pivot_mm));
+    ways_mm.emplace_back(turn * (mesh.vertices[i] - jaw.pivot_mm));
     if (!opening_mm[i].isZero(0)) longest_mm = std::max(longest_mm, ways_mm.back().norm());
   }
   const double soft2 = jaw.soft_mm * jaw.soft_mm;

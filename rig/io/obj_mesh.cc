@@ -57,7 +57,7 @@ class ObjReader {
       const Eigen::Vector3d color(values[3], values[4], values[5]);
       if (color.minCoeff() < 0 || color.maxCoeff() > 1)
         return Fault("a colour that is not between 0 and 1");
-      mesh_.colors.push_back(color.cast<float>());
+      mesh_.colors.emplace_back(color.cast<float>());
     }
     return {};
   }

@@ -66,7 +66,7 @@ Result<MorphSource> ReadObjTargets(const std::map<std::string, std::string>& fil
   const double rounding = kRelativeRounding * SizeOf(neutral->vertices);
   for (const auto& [name, bytes] : files) {
     if (name == kNeutral || !name.ends_with(".obj")) continue;
-    const std::string path = source_name + "/" + name;
+    const std::string path = fmt::format("{}/{}", source_name, name);
     const auto target = ParseObj(bytes, path);
     if (!target) return tl::unexpected(target.error());
     if (target->vertices.size() != neutral->vertices.size() || !SameFaces(*target, *neutral))

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <utility>
 
 #include "core/toml_reader.h"
 
@@ -39,6 +40,7 @@ std::string List(const Eigen::Vector3d& vector) {
 
 std::vector<std::string> NamesOf(const auto& items) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const auto& item : items) names.push_back(item.name);
   return names;
 }
@@ -46,7 +48,8 @@ std::vector<std::string> NamesOf(const auto& items) {
 // Turns names into indices while a file is read, keeping the first fault.
 class NameTable {
  public:
-  NameTable(std::vector<std::string> names, std::string_view kind) : names_(names), kind_(kind) {}
+  NameTable(std::vector<std::string> names, std::string_view kind)
+      : names_(std::move(names)), kind_(kind) {}
 
   int Find(const TomlReader& reader, std::string_view key) const {
     const std::string name = reader.Text(key);
