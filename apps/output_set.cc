@@ -54,7 +54,7 @@ void OutputSet::Add(const fs::path& path, std::string bytes) {
 
 void OutputSet::AddWriter(const fs::path& path,
                           std::function<Result<void>(const fs::path&)> write) {
-  paths_.push_back(path);
+  paths_.push_back(path.lexically_normal());
   writers_.push_back(std::move(write));
 }
 
@@ -62,7 +62,10 @@ Result<void> OutputSet::RefuseToOverwrite(const std::vector<fs::path>& inputs) c
   for (const fs::path& output : paths_)
     for (const fs::path& input : inputs) {
       std::error_code error;
-      if (fs::equivalent(output, input, error))
+      // Also by name: the way to the output may lead through folders that are yet to be made.
+      if (fs::equivalent(output, input, error) ||
+          (!input.empty() &&
+           fs::weakly_canonical(output, error) == fs::weakly_canonical(input, error)))
         return Fail(
             fmt::format("{}: the output would take the place of the input, which is never "
                         "altered; give the output another name",

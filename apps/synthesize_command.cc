@@ -60,6 +60,7 @@ ExitCode SynthesizeCommand(const std::vector<std::string>& arguments) {
   line.Stage("noise", noise_options);
   if (const auto exit = line.Parse(arguments)) return *exit;
 
+  if (const auto checked = CheckOptions(noise_options); !checked) return FailWith(checked.error());
   const Result<SyntheticTake> take = Synthesize(rig_folder, map, take_options);
   if (!take) return FailWith(take.error());
   const DisturbedRecording disturbed =

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "synthetic/noise.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/check.h"
 #include "synthetic/random.h"
@@ -157,6 +160,23 @@ void VisitOptions(SyntheticNoiseOptions& options, OptionVisitor& visit) {
   visit("outlier_mm", options.outlier_mm, "how far outliers are off; mm");
   visit("swaps_hz", options.swaps_hz, "how often a second two neighbouring markers are swapped");
   visit("swap_length_s", options.swap_length_s, "for how long they stay swapped; s");
+}
+
+Result<void> CheckOptions(const SyntheticNoiseOptions& options) {
+  const std::pair<const char*, double> parts[] = {
+      {"dropout", options.dropout}, {"gap", options.gap}, {"outliers", options.outliers}};
+  for (const auto& [name, value] : parts)
+    if (!(value >= 0 && value <= 1))
+      return Fail(fmt::format("{} is {}; it must be between 0 and 1", name, value));
+  const std::pair<const char*, double> sizes[] = {{"noise_mm", options.noise_mm},
+                                                  {"gap_length_s", options.gap_length_s},
+                                                  {"outlier_mm", options.outlier_mm},
+                                                  {"swaps_hz", options.swaps_hz},
+                                                  {"swap_length_s", options.swap_length_s}};
+  for (const auto& [name, value] : sizes)
+    if (!(value >= 0 && std::isfinite(value)))
+      return Fail(fmt::format("{} is {}; it must be 0 or more", name, value));
+  return {};
 }
 
 int DisturbedRecording::Count(SampleFault kind) const {

@@ -6,6 +6,7 @@
 
 #include "core/marker_recording.h"
 #include "core/options.h"
+#include "core/result.h"
 
 namespace articap {
 
@@ -20,6 +21,8 @@ struct SyntheticNoiseOptions {
   double swap_length_s = 0.1;
 };
 void VisitOptions(SyntheticNoiseOptions& options, OptionVisitor& visit);
+// Names the option that makes no sense: a probability above 1, a negative length.
+Result<void> CheckOptions(const SyntheticNoiseOptions& options);
 
 // What was done to a sample. Later kinds win: a swapped outlier counts as swapped.
 enum class SampleFault : std::uint8_t { kNone, kDropout, kGap, kOutlier, kSwap };

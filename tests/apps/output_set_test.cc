@@ -68,6 +68,13 @@ TEST_F(OutputSetTest, RefusesToTakeThePlaceOfAnInput) {
   EXPECT_THAT(allowed.error().message, HasSubstr("never altered"));
 }
 
+TEST_F(OutputSetTest, RefusesAnInputBehindAFolderThatIsNotThere) {
+  ASSERT_TRUE(WriteFile(folder_ / "raw.c3d", "raw"));
+  OutputSet outputs;
+  outputs.Add(folder_ / "nowhere" / ".." / "raw.c3d", "new");
+  EXPECT_FALSE(outputs.RefuseToOverwrite({folder_ / "raw.c3d"}));
+}
+
 TEST_F(OutputSetTest, RefusesAFolderInTheWay) {
   fs::create_directory(folder_ / "a.csv");
   OutputSet outputs;

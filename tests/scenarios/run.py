@@ -23,7 +23,9 @@ A scenario is a file of
     warnings = [["chin", "glued"]]      # for each list a warning that says all of it
     stderr = ["take.csv:3:"]
     not_stderr = ["texts that must not"]
+    json = ["figures.frames"]           # keys of the JSON that stdout must be
     files = ["out.trc"]                 # all files that the step makes; none where it is left out
+    same = [["a.trc", "b.trc"]]         # pairs of files with the same bytes; `differ`: with others
     keys = {"out/report.json" = ["fit.figures.frames"]}
 
 Every step must end by itself with one of the exit codes 0, 1, 2, and say why on stderr where it is
@@ -95,13 +97,16 @@ def check_warnings(stdout, wanted):
             raise Failure(f"no warning says {fragments}; there are\n" + "\n".join(lines))
 
 
-def check_keys(path, keys):
-    document = json.loads(path.read_text())
+def check_keys(what, text, keys):
+    try:
+        document = json.loads(text)
+    except ValueError as error:
+        raise Failure(f"{what} is no JSON ({error}):\n{text}") from error
     for key in keys:
         value = document
         for part in key.split("."):
             if not isinstance(value, dict) or part not in value:
-                raise Failure(f"{path.name} has no {key}")
+                raise Failure(f"{what} has no {key}")
             value = value[part]
 
 
@@ -128,7 +133,13 @@ def run_step(articap, step, folder):
     if made != sorted(step.get("files", [])):
         raise Failure(f"made the files {made}, not {sorted(step.get('files', []))}\n{said}")
     for name, keys in step.get("keys", {}).items():
-        check_keys(folder / name, keys)
+        check_keys(name, (folder / name).read_text(), keys)
+    for wanted, pairs in ((True, step.get("same", [])), (False, step.get("differ", []))):
+        for first, second in pairs:
+            if ((folder / first).read_bytes() == (folder / second).read_bytes()) != wanted:
+                raise Failure(f"{first} and {second} {'differ' if wanted else 'are the same'}")
+    if "json" in step:
+        check_keys("stdout", stdout, step["json"])
 
 
 def main():

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "synthetic/noise.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 
@@ -135,6 +135,17 @@ TEST(AddNoiseTest, SwapsExchangeNeighbours) {
       const bool swapped = disturbed.fault(frame, marker) == SampleFault::kSwap;
       ASSERT_NEAR(Displacement(disturbed, frame, marker).norm(), swapped ? 20 : 0, 1e-9);
     }
+}
+
+TEST(AddNoiseTest, OptionsThatMakeNoSenseAreNamed) {
+  SyntheticNoiseOptions options;
+  EXPECT_TRUE(CheckOptions(options));
+  options.dropout = 2;
+  ASSERT_FALSE(CheckOptions(options));
+  EXPECT_THAT(CheckOptions(options).error().message, testing::HasSubstr("dropout is 2"));
+  options.dropout = 0;
+  options.noise_mm = -0.1;
+  EXPECT_FALSE(CheckOptions(options));
 }
 
 }  // namespace
