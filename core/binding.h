@@ -42,8 +42,8 @@ struct Binding {
   MarkerSet marker_set;
   HeadShape head_shape;      // head references in the head frame; empty for the modes without
   HeadShape reference_pose;  // every marker of the reference pose, head frame: what q was tied to
-  FrameRange reference_frames;  // of the reference recording, averaged
-  Sim3d rig_from_head;       // written as x = (tx, ty, tz, ax, ay, az, s)
+  FrameRange reference_frames;             // of the reference recording, averaged
+  Sim3d rig_from_head;                     // written as x = (tx, ty, tz, ax, ay, az, s)
   std::vector<NamedValue> rig_parameters;  // the rig's pose in the reference pose
   std::vector<NamedValue> rig_identity;
   std::vector<VirtualMarker> virtual_markers;  // of the face markers

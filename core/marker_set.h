@@ -16,13 +16,13 @@ namespace articap {
 // One marker of a set: what it is for, and where it sits on a face.
 struct MarkerRole {
   std::string name;
-  bool head_reference = false;   // moves with the skull
-  bool strategic = false;        // a point of the orientation fit
-  bool face = false;             // drives the articulatory parameters
-  std::string landmark;          // of core/landmarks.h; empty where it sits at none
+  bool head_reference = false;  // moves with the skull
+  bool strategic = false;       // a point of the orientation fit
+  bool face = false;            // drives the articulatory parameters
+  std::string landmark;         // of core/landmarks.h; empty where it sits at none
   // Of the rig, where its virtual marker must lie; empty: the landmark's region.
   std::string region;
-  double offset_mm = 0;  // height of the marker's centre above the skin, where known
+  double offset_mm = 0;          // height of the marker's centre above the skin, where known
   bool beside_landmark = false;  // sits near its landmark, too far off to tell the identity by
 };
 

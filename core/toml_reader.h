@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/result.h"
 #include <toml++/toml.h>
+#include "core/result.h"
 
 namespace articap {
 
