@@ -14,7 +14,7 @@ namespace articap {
 struct CloudModel {
   double surface_sd_mm = 2;   // beside the rig's skin: another face, the radius of a marker
   double landmark_sd_mm = 4;  // beside the nearest landmark
-  double scale_sd = 0.1;      // natural logarithm; people's heads differ in size by some 5 %
+  double scale_sd = 0.15;  // natural logarithm: heads differ by 5 %, what rigs take for one by more
 };
 
 struct CloudFit {

@@ -200,11 +200,12 @@ ReportTable TableOf(const std::vector<PlacedMarker>& markers) {
   return table;
 }
 
-void Judge(const MarkerSet& set, const IcpAlignment& alignment, StageReport& report) {
+void Judge(const MarkerSet& set, const IcpAlignment& alignment, const Sim3d& rig_from_stage,
+           StageReport& report) {
   const auto count = [&](auto field) { return std::ranges::count(set.markers, true, field); };
   const auto num_strategic = count(&MarkerRole::strategic);
   const auto num_head = count(&MarkerRole::head_reference);
-  report.figures = {{"scale_rig_from_speaker", alignment.rig_from_cloud.scale},
+  report.figures = {{"scale_rig_from_speaker", rig_from_stage.scale},
                     {"median_distance_to_skin_mm", alignment.median_distance_mm},
                     {"markers_at_landmarks",
                      static_cast<double>(std::ranges::count_if(
@@ -273,7 +274,7 @@ Result<StageResult<MarkerSet>> ProposeMap(const StageTracks& reference, const st
   StageResult<MarkerSet> result{MakeSet(name, markers, options), {}};
   result.report.stage = "map";
   result.report.options = EchoOptions(options);
-  Judge(result.output, *alignment, result.report);
+  Judge(result.output, *alignment, adapted->fit.rig_from_cloud, result.report);
   result.report.tables.push_back(TableOf(markers));
   for (const std::string& left_out : motion.left_out)
     result.report.warnings.push_back(

@@ -17,6 +17,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kClosedPart = 0.15;
 constexpr double kClosedMargin_mm = 1.5;
 
+// The shortest window that is averaged, frames.
+constexpr int kShortestWindow = 8;
+
 struct Spread {
   double low = 0, high = 0;  // 5th and 95th percentile
 };
@@ -106,6 +109,23 @@ std::vector<double> Speeds(const HeadTracks& tracks, const MarkerSet& set) {
   return speeds;
 }
 
+// Where the window of that length with the least sum of scores begins.
+int BestWindow(const std::vector<double>& score, int length) {
+  const int num_frames = static_cast<int>(score.size());
+  double sum = 0;
+  for (int frame = 0; frame < length; ++frame) sum += score[frame];
+  double best = sum;
+  int best_start = 0;
+  for (int start = 1; start + length <= num_frames; ++start) {
+    sum += score[start + length - 1] - score[start - 1];
+    if (sum < best) {
+      best = sum;
+      best_start = start;
+    }
+  }
+  return best_start;
+}
+
 bool HasAny(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(),
                      [](double value) { return std::isfinite(value); });
@@ -179,26 +199,26 @@ Result<FrameRange> ProposeReferenceFrames(const HeadTracks& tracks, const Marker
         "upper_lip_center and lower_lip_center, nor chin and nose_bridge; give the frames with "
         "closed lips and relaxed jaw yourself (--frames A:B, or --reference)");
 
-  const std::vector<double> usual =
-      OverSpread(DistancesFromUsual(tracks, set, ClosedFrames({lips, jaw})));
+  const std::vector<bool> closed = ClosedFrames({lips, jaw});
+  const std::vector<double> usual = OverSpread(DistancesFromUsual(tracks, set, closed));
   const std::vector<double> open = OverSpread(lips), drop = OverSpread(jaw);
   const std::vector<double> speed = OverSpread(Speeds(tracks, set));
   std::vector<double> score(tracks.num_frames());
   for (int frame = 0; frame < tracks.num_frames(); ++frame)
     score[frame] = 4 * usual[frame] + open[frame] + drop[frame] + 4 * speed[frame];
-  const int length = std::min(num_frames, tracks.num_frames());
-  double sum = 0;
-  for (int frame = 0; frame < length; ++frame) sum += score[frame];
-  double best = sum;
-  int best_start = 0;
-  for (int start = 1; start + length <= tracks.num_frames(); ++start) {
-    sum += score[start + length - 1] - score[start - 1];
-    if (sum < best) {
-      best = sum;
-      best_start = start;
-    }
+  // A window must be of a closed mouth nearly throughout; where none so long is, half as long will
+  // do.
+  int length = std::min(num_frames, tracks.num_frames());
+  int start = BestWindow(score, length);
+  const auto is_closed = [&] {
+    const auto first = closed.begin() + start;
+    return 10 * std::count(first, first + length, true) >= 9 * length;
+  };
+  while (!is_closed() && length > kShortestWindow) {
+    length = std::max(kShortestWindow, length / 2);
+    start = BestWindow(score, length);
   }
-  const int first = tracks.first_frame() + best_start;
+  const int first = tracks.first_frame() + start;
   return FrameRange{first, first + length - 1};
 }
 

@@ -17,11 +17,11 @@ namespace articap {
 std::vector<double> LandmarkDistances(const HeadTracks& tracks, const MarkerSet& set,
                                       const std::string& landmark_a, const std::string& landmark_b);
 
-// The window of frames, `num_frames` long or the whole take where that is shorter, that looks most
-// like Beskow's reference pose: lips closed, jaw relaxed, face at rest. Lips: distance of
-// upper_lip_center to lower_lip_center; jaw: chin to nose_bridge or nose_tip; relaxed: near to
-// where the face markers usually are while lips and jaw are closed. Fails where the set has none of
-// these landmarks.
+// The window of frames, `num_frames` long, or shorter where the take is or the mouth is not closed
+// so long, that looks most like Beskow's reference pose: lips closed, jaw relaxed, face at rest.
+// Lips: distance of upper_lip_center to lower_lip_center; jaw: chin to nose_bridge or nose_tip;
+// relaxed: near to where the face markers usually are while lips and jaw are closed. Fails where
+// the set has none of these landmarks.
 Result<FrameRange> ProposeReferenceFrames(const HeadTracks& tracks, const MarkerSet& set,
                                           int num_frames);
 

@@ -16,9 +16,9 @@ constexpr double kRidge = 1e-12;
 
 // Far from the minimum, where a step still halves the objective, Newton's model of a distance is no
 // good: it has no curvature towards the marker.
-constexpr double kFarDecrease = 0.3;
+constexpr double kFarDecrease = 0.1;
 
-constexpr double kFirstDamping = 0.02;
+constexpr double kFirstDamping = 0.2;
 constexpr double kMostDamping = 1e9;
 
 }  // namespace

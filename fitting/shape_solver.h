@@ -11,7 +11,7 @@ struct ShapeSolverOptions {
   MarkerLoss loss;
   int max_evaluations = 60;
   // Converged when a step promises less than this part of the objective, or less than 1e-12 mm.
-  double relative_tolerance = 1e-10;
+  double relative_tolerance = 1e-8;
 };
 
 // What happened to one frame.
