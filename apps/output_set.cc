@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <memory>
+#include <ranges>
 #include <system_error>
 #include <utility>
 
@@ -34,8 +35,7 @@ class Undo {
   ~Undo() {
     std::error_code ignored;
     for (const fs::path& file : files) fs::remove(file, ignored);
-    for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder)
-      fs::remove(*folder, ignored);
+    for (const fs::path& folder : folders | std::views::reverse) fs::remove(folder, ignored);
   }
   void Keep() {
     files.clear();

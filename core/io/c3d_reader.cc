@@ -186,7 +186,8 @@ std::vector<MarkerEvent> ReadEventGroup(const C3dParameters& parameters,
   const auto contexts = parameters.Texts("EVENT", "CONTEXTS");
   const auto subjects = parameters.Texts("EVENT", "SUBJECTS");
   const auto descriptions = parameters.Texts("EVENT", "DESCRIPTIONS");
-  const auto timed = static_cast<double>(times.size() / 2);
+  const std::size_t num_pairs = times.size() / 2;  // minutes and seconds
+  const auto timed = static_cast<double>(num_pairs);
   const double used = parameters.Number("EVENT", "USED").value_or(timed);
   const auto promised = static_cast<std::size_t>(used >= 0 && used < 65536 ? used : timed);
   std::vector<MarkerEvent> events;

@@ -67,14 +67,14 @@ void C3dParameterWriter::Add(std::string_view name, std::string_view text) {
 }
 
 void C3dParameterWriter::AddWords(std::string_view name, std::span<const int> words,
-                                  std::vector<int> dims) {
+                                  const std::vector<int>& dims) {
   C3dOutput data;
   for (const int word : words) data.U16(word);
   AddRecord(name, 2, dims, data.bytes());
 }
 
 void C3dParameterWriter::AddFloats(std::string_view name, std::span<const float> values,
-                                   std::vector<int> dims) {
+                                   const std::vector<int>& dims) {
   C3dOutput data;
   for (const float value : values) data.F32(value);
   AddRecord(name, 4, dims, data.bytes());

@@ -35,8 +35,9 @@ class C3dParameterWriter {
   void Add(std::string_view name, int value);  // 16 bits, unsigned above 32767
   void Add(std::string_view name, float value);
   void Add(std::string_view name, std::string_view text);
-  void AddWords(std::string_view name, std::span<const int> words, std::vector<int> dims);
-  void AddFloats(std::string_view name, std::span<const float> values, std::vector<int> dims);
+  void AddWords(std::string_view name, std::span<const int> words, const std::vector<int>& dims);
+  void AddFloats(std::string_view name, std::span<const float> values,
+                 const std::vector<int>& dims);
   // NAME, NAME2, NAME3, ... as many as a list of more than 255 entries needs. An entry spans
   // `width` values.
   void AddTextList(std::string_view name, const std::vector<std::string>& texts);
