@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 
 #include "core/check.h"
@@ -12,11 +11,8 @@
 namespace articap {
 namespace {
 
-// More edges than any sensible mesh has at a vertex.
-constexpr int kMaxLanes = 64;
-
-// The edges are worked on in fours, so that the compiler can use vector registers.
-constexpr int kLaneMultiple = 4;
+// Parameters other than the jaw's that may move one marker, and one for the constant term.
+constexpr int kMaxTerms = 512;
 
 struct WeightedVertex {
   int vertex = 0;
@@ -62,27 +58,35 @@ Form FormOf(const FaceRig& rig, std::span<const int> linear_columns,
   return form;
 }
 
-// x, y, z of every lane, and one lane more.
-using Lanes = std::array<std::array<double, kMaxLanes + 1>, 3>;
+// The numbers of a pair of terms in Marker::normal_forms, padded to whole vector registers.
+constexpr int kStillBlock = 4;
+constexpr int kTurningBlock = 16;
+template <int kSize>
+using Block = Eigen::Array<double, kSize, 1>;
 
-// sum over the lanes of (x, y, z) x right.
-Eigen::Vector3d CrossSum(int lanes, const double* x, const double* y, const double* z,
-                         const Lanes& right) {
-  double sum_x = 0, sum_y = 0, sum_z = 0;
-  for (int lane = 0; lane < lanes; ++lane) {
-    sum_x += y[lane] * right[2][lane] - z[lane] * right[1][lane];
-    sum_y += z[lane] * right[0][lane] - x[lane] * right[2][lane];
-    sum_z += x[lane] * right[1][lane] - y[lane] * right[0][lane];
-  }
-  return {sum_x, sum_y, sum_z};
+Eigen::Vector3d StillCross(const Block<kTurningBlock>& block) { return block.segment<3>(0); }
+Eigen::Vector3d TurnedCross(const Block<kTurningBlock>& block) { return block.segment<3>(3); }
+Eigen::Matrix3d MixedProduct(const Block<kTurningBlock>& block) {
+  return Eigen::Map<const Eigen::Matrix3d>(block.data() + 6);
 }
 
-// Every lane turned by a matrix.
-void Turn(const Eigen::Matrix3d& matrix, int lanes, const Lanes& source, Lanes* target) {
-  for (int axis = 0; axis < 3; ++axis)
-    for (int lane = 0; lane < lanes; ++lane)
-      (*target)[axis][lane] = matrix(axis, 0) * source[0][lane] +
-                              matrix(axis, 1) * source[1][lane] + matrix(axis, 2) * source[2][lane];
+// Row k of the quadratic form, times the terms: sum_l block(k, l) terms_l.
+template <int kSize>
+[[gnu::always_inline]] inline Block<kSize> RowTimesTerms(const std::vector<double>& forms, int k,
+                                                         int num_terms, const double* terms) {
+  const double* block = forms.data() + static_cast<std::size_t>(k) * num_terms * kSize;
+  Block<kSize> sum = terms[0] * Eigen::Map<const Block<kSize>>(block);
+  for (int l = 1; l < num_terms; ++l)
+    sum += terms[l] * Eigen::Map<const Block<kSize>>(block + l * kSize);
+  return sum;
+}
+
+// axial(p r^T).
+[[gnu::always_inline]] inline Eigen::Vector3d AxialOfProduct(const Eigen::Matrix3d& p,
+                                                             const Eigen::Matrix3d& r) {
+  return {p.row(1).dot(r.row(2)) - p.row(2).dot(r.row(1)),
+          p.row(2).dot(r.row(0)) - p.row(0).dot(r.row(2)),
+          p.row(0).dot(r.row(1)) - p.row(1).dot(r.row(0))};
 }
 
 // The triangles around a vertex as (a, b), turned so that the vertex comes first: (vertex, a, b).
@@ -137,66 +141,50 @@ VirtualMarkerEvaluator::Marker VirtualMarkerEvaluator::Compile(const FaceRig& ri
   compiled.fixed = form.fixed;
   compiled.turned = form.turned;
   compiled.slide_weight = form.slide_weight;
-  if (marker.u_mm != 0) CompileRing(rig, v1, &compiled);
-
   compiled.turns = std::any_of(involved.begin(), involved.end(),
                                [&](int vertex) { return rig.jaw_weight(vertex) > 0; });
+  if (marker.u_mm != 0) CompileNormal(rig, v1, &compiled);
   if (compiled.turns)
     for (const int parameter : {rotation_parameter_, thrust_parameter_, shift_parameter_})
       if (parameter >= 0) compiled.columns.push_back(parameter);
   return compiled;
 }
 
-void VirtualMarkerEvaluator::CompileRing(const FaceRig& rig, int vertex, Marker* marker) const {
+void VirtualMarkerEvaluator::CompileNormal(const FaceRig& rig, int vertex, Marker* marker) const {
   const auto fan = FanAround(rig.neutral_mesh(), vertex);
   ARTICAP_CHECK(!fan.empty());
-
-  // A ring vertex is one lane; where more than two triangles share an edge it is several.
-  std::vector<int> lane_vertices;
-  std::map<int, int> lane_without_next, lane_without_previous;
-  const auto lane_of = [&](int ring_vertex, std::map<int, int>& wanting,
-                           std::map<int, int>& other) {
-    const auto found = wanting.find(ring_vertex);
-    if (found != wanting.end()) {
-      const int lane = found->second;
-      wanting.erase(found);
-      return lane;
-    }
-    const int lane = static_cast<int>(lane_vertices.size());
-    lane_vertices.push_back(ring_vertex);
-    other[ring_vertex] = lane;
-    return lane;
+  const int num_terms = 1 + marker->num_linear;
+  ARTICAP_CHECK_LE(num_terms, kMaxTerms);
+  const int block_size = marker->turns ? kTurningBlock : kStillBlock;
+  marker->normal_forms.assign(static_cast<std::size_t>(num_terms) * num_terms * block_size, 0);
+  marker->slide_fixed.setZero(3, num_terms);
+  marker->slide_turned.setZero(3, num_terms);
+  const auto linear_columns = std::span(marker->columns).first(marker->num_linear);
+  const auto edge_to = [&](int end) {
+    return FormOf(rig, linear_columns, std::array<WeightedVertex, 2>{{{vertex, -1}, {end, 1}}});
   };
-  std::vector<std::pair<int, int>> links;
-  for (const auto& [a, b] : fan) {
-    const int lane_a = lane_of(a, lane_without_next, lane_without_previous);
-    const int lane_b = lane_of(b, lane_without_previous, lane_without_next);
-    links.emplace_back(lane_a, lane_b);
-  }
-
-  const int num_edges = static_cast<int>(lane_vertices.size());
-  const int num_lanes = (num_edges + kLaneMultiple - 1) / kLaneMultiple * kLaneMultiple;
-  ARTICAP_CHECK_LE(num_lanes, kMaxLanes);
-  marker->num_lanes = num_lanes;
-  marker->next_lane.assign(num_lanes, num_lanes);
-  marker->previous_lane.assign(num_lanes, num_lanes);
-  for (const auto& [a, b] : links) {
-    marker->next_lane[a] = b;
-    marker->previous_lane[b] = a;
-  }
-  const int num_forms = 1 + marker->num_linear;
-  marker->edge_forms.assign(static_cast<std::size_t>(num_forms) * 6 * num_lanes, 0);
-  marker->edge_slide_weights.assign(num_lanes, 0);
-  for (int lane = 0; lane < num_edges; ++lane) {
-    const std::array<WeightedVertex, 2> edge = {{{vertex, -1}, {lane_vertices[lane], 1}}};
-    const Form form = FormOf(rig, std::span(marker->columns).first(marker->num_linear), edge);
-    for (int k = 0; k < num_forms; ++k)
-      for (int axis = 0; axis < 3; ++axis) {
-        double* const rows = marker->edge_forms.data() + k * 6 * num_lanes;
-        rows[axis * num_lanes + lane] = form.fixed(axis, k);
-        rows[(3 + axis) * num_lanes + lane] = form.turned(axis, k);
+  for (const auto& [first, second] : fan) {
+    const Form a = edge_to(first), b = edge_to(second);
+    marker->slide_fixed += b.slide_weight * a.fixed - a.slide_weight * b.fixed;
+    marker->slide_turned += b.slide_weight * a.turned - a.slide_weight * b.turned;
+    for (int k = 0; k < num_terms; ++k)
+      for (int l = 0; l < num_terms; ++l) {
+        // Half to (k, l) and half to (l, k).
+        const auto cross = [&](const Eigen::Matrix3Xd& left, const Eigen::Matrix3Xd& right) {
+          return Eigen::Vector3d(
+              0.5 * (left.col(k).cross(right.col(l)) + left.col(l).cross(right.col(k))));
+        };
+        double* const block =
+            marker->normal_forms.data() + static_cast<std::size_t>(k * num_terms + l) * block_size;
+        Eigen::Map<Eigen::Vector3d>(block) += cross(a.fixed, b.fixed);
+        if (!marker->turns) continue;
+        Eigen::Map<Eigen::Vector3d>(block + 3) += cross(a.turned, b.turned);
+        Eigen::Map<Eigen::Matrix3d>(block + 6) +=
+            0.5 * (a.fixed.col(k) * b.turned.col(l).transpose() +
+                   a.fixed.col(l) * b.turned.col(k).transpose() -
+                   b.fixed.col(k) * a.turned.col(l).transpose() -
+                   b.fixed.col(l) * a.turned.col(k).transpose());
       }
-    marker->edge_slide_weights[lane] = form.slide_weight;
   }
 }
 
@@ -228,7 +216,7 @@ Eigen::Vector3d VirtualMarkerEvaluator::Evaluate(const Pose& pose, const Marker&
   if (!marker.turns) {
     if constexpr (kWithJacobian)
       Eigen::Map<Jacobian>(jacobian, 3, num_linear) = marker.fixed.rightCols(num_linear);
-    return marker.num_lanes == 0 ? fixed : fixed + AddNormal<kWithJacobian>(pose, marker, jacobian);
+    return marker.u_mm == 0 ? fixed : fixed + AddNormal<kWithJacobian>(pose, marker, jacobian);
   }
 
   Eigen::Vector3d turned = marker.turned.col(0);
@@ -245,108 +233,87 @@ Eigen::Vector3d VirtualMarkerEvaluator::Evaluate(const Pose& pose, const Marker&
     if (thrust_parameter_ >= 0) columns.col(column++) = marker.slide_weight * thrust_direction_;
     if (shift_parameter_ >= 0) columns.col(column++) = marker.slide_weight * shift_direction_;
   }
-  if (marker.num_lanes > 0) position += AddNormal<kWithJacobian>(pose, marker, jacobian);
+  if (marker.u_mm != 0) position += AddNormal<kWithJacobian>(pose, marker, jacobian);
   return position;
 }
 
-// The edges round v1 of a posed marker, one a lane; the lane beyond the last is always zero.
-struct VirtualMarkerEvaluator::Ring {
-  Lanes turned;       // the jaw-weighted arms, before the jaw turns
-  Lanes edges;        // e_j
-  Lanes differences;  // g_j = e_(j+1) - e_(j-1)
-};
-
-void VirtualMarkerEvaluator::PoseRing(const Pose& pose, const Marker& marker, Ring* ring) {
-  const int lanes = marker.num_lanes;
-  auto& [turned, edges, differences] = *ring;
-  const double* const constant = marker.edge_forms.data();
-  for (int axis = 0; axis < 3; ++axis) {
-    std::copy_n(constant + axis * lanes, lanes, edges[axis].begin());
-    std::copy_n(constant + (3 + axis) * lanes, lanes, turned[axis].begin());
-  }
-  for (int k = 0; k < marker.num_linear; ++k) {
-    const double value = pose.parameters[marker.columns[k]];
-    const double* const form = constant + (k + 1) * 6 * lanes;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int lane = 0; lane < lanes; ++lane) {
-        edges[axis][lane] += value * form[axis * lanes + lane];
-        turned[axis][lane] += value * form[(3 + axis) * lanes + lane];
-      }
-  }
-  if (marker.turns) {
-    const Eigen::Matrix3d& r = pose.jaw_rotation;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int lane = 0; lane < lanes; ++lane)
-        edges[axis][lane] += r(axis, 0) * turned[0][lane] + r(axis, 1) * turned[1][lane] +
-                             r(axis, 2) * turned[2][lane] +
-                             marker.edge_slide_weights[lane] * pose.jaw_slide_mm[axis];
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    edges[axis][lanes] = 0;
-    for (int lane = 0; lane < lanes; ++lane)
-      differences[axis][lane] =
-          edges[axis][marker.next_lane[lane]] - edges[axis][marker.previous_lane[lane]];
-  }
+// (1, y) of the parameters that a marker depends on, without the jaw's; returns their number.
+int VirtualMarkerEvaluator::TermsOf(const Pose& pose, const Marker& marker, double* terms) {
+  terms[0] = 1;
+  for (int k = 0; k < marker.num_linear; ++k) terms[k + 1] = pose.parameters[marker.columns[k]];
+  return 1 + marker.num_linear;
 }
 
-// u e1, and its derivatives added to the Jacobian. With edges e_j round v1, g_j = e_(j+1) -
-// e_(j-1):
-//   N = sum_j e_j x e_(j+1) = 1/2 sum_j e_j x g_j,   e1 = N / |N|.
+// N of a marker that the jaw does not turn, and its derivatives by the marker's columns.
+template <bool kWithJacobian>
+Eigen::Vector3d VirtualMarkerEvaluator::StillNormal(const Pose& pose, const Marker& marker,
+                                                    Eigen::Vector3d* derivatives) {
+  std::array<double, kMaxTerms> terms;  // NOLINT: filled as far as it is used
+  const int num_terms = TermsOf(pose, marker, terms.data());
+  Block<kStillBlock> sum = Block<kStillBlock>::Zero();
+  for (int k = 0; k < num_terms; ++k) {
+    const auto row = RowTimesTerms<kStillBlock>(marker.normal_forms, k, num_terms, terms.data());
+    sum += terms[k] * row;
+    if (kWithJacobian && k > 0) derivatives[k - 1] = 2 * row.head<3>();
+  }
+  return sum.head<3>();
+}
+
+// N of a marker that the jaw turns, and its derivatives by the marker's columns.
+template <bool kWithJacobian>
+Eigen::Vector3d VirtualMarkerEvaluator::TurningNormal(const Pose& pose, const Marker& marker,
+                                                      Eigen::Vector3d* derivatives) const {
+  const Eigen::Matrix3d& r = pose.jaw_rotation;
+  const Eigen::Vector3d& slide = pose.jaw_slide_mm;
+  const auto normal_of = [&](const Block<kTurningBlock>& block) -> Eigen::Vector3d {
+    return StillCross(block) + r * TurnedCross(block) + AxialOfProduct(MixedProduct(block), r);
+  };
+  std::array<double, kMaxTerms> terms;  // NOLINT: filled as far as it is used
+  const int num_terms = TermsOf(pose, marker, terms.data());
+  Block<kTurningBlock> sum = Block<kTurningBlock>::Zero();
+  Eigen::Vector3d m = Eigen::Vector3d::Zero(), n = Eigen::Vector3d::Zero();
+  for (int k = 0; k < num_terms; ++k) {
+    const auto row = RowTimesTerms<kTurningBlock>(marker.normal_forms, k, num_terms, terms.data());
+    sum += terms[k] * row;
+    m += terms[k] * marker.slide_fixed.col(k);
+    n += terms[k] * marker.slide_turned.col(k);
+    if (kWithJacobian && k > 0)
+      derivatives[k - 1] =
+          2 * normal_of(row) +
+          (marker.slide_fixed.col(k) + r * marker.slide_turned.col(k)).cross(slide);
+  }
+  const Eigen::Vector3d slide_arm = m + r * n;
+  if constexpr (kWithJacobian) {
+    Eigen::Vector3d* derivative = derivatives + marker.num_linear;
+    const Eigen::Matrix3d& dr = pose.jaw_derivative;
+    if (rotation_parameter_ >= 0)
+      *derivative++ =
+          dr * TurnedCross(sum) + AxialOfProduct(MixedProduct(sum), dr) + (dr * n).cross(slide);
+    if (thrust_parameter_ >= 0) *derivative++ = slide_arm.cross(thrust_direction_);
+    if (shift_parameter_ >= 0) *derivative++ = slide_arm.cross(shift_direction_);
+  }
+  return normal_of(sum) + slide_arm.cross(slide);
+}
+
+// u e1 with e1 = N / |N|, and its derivatives, u (I - e1 e1^T) dN / |N|, added to the Jacobian.
 template <bool kWithJacobian>
 Eigen::Vector3d VirtualMarkerEvaluator::AddNormal(const Pose& pose, const Marker& marker,
                                                   double* jacobian) const {
-  Ring ring;
-  PoseRing(pose, marker, &ring);
+  std::array<Eigen::Vector3d, kMaxTerms + 3> derivatives;
   const Eigen::Vector3d normal =
-      0.5 * CrossSum(marker.num_lanes, ring.edges[0].data(), ring.edges[1].data(),
-                     ring.edges[2].data(), ring.differences);
+      marker.turns ? TurningNormal<kWithJacobian>(pose, marker, derivatives.data())
+                   : StillNormal<kWithJacobian>(pose, marker, derivatives.data());
   const double length = normal.norm();
   if (length == 0) return Eigen::Vector3d::Zero();
-  if constexpr (kWithJacobian) AddNormalDerivatives(pose, marker, ring, normal, jacobian);
-  return (marker.u_mm / length) * normal;
-}
-
-// dN = sum_j de_j x g_j and de1 = (I - e1 e1^T) dN / |N|; as (R f) x g = R (f x (R^T g)), the
-// derivatives need no turning edge by edge.
-void VirtualMarkerEvaluator::AddNormalDerivatives(const Pose& pose, const Marker& marker,
-                                                  const Ring& ring, const Eigen::Vector3d& normal,
-                                                  double* jacobian) const {
-  const int lanes = marker.num_lanes;
-  const Lanes& differences = ring.differences;
-  const double length = normal.norm();
   const Eigen::Vector3d e1 = normal / length;
-  const double factor = marker.u_mm / length;
-  Eigen::Map<Jacobian> columns(jacobian, 3, static_cast<int>(marker.columns.size()));
-  const auto add = [&](int column, const Eigen::Vector3d& d_normal) {
-    columns.col(column) += factor * (d_normal - e1.dot(d_normal) * e1);
-  };
-  const auto form = [&](int k) { return marker.edge_forms.data() + (k + 1) * 6 * lanes; };
-  if (!marker.turns) {
-    for (int k = 0; k < marker.num_linear; ++k)
-      add(k, CrossSum(lanes, form(k), form(k) + lanes, form(k) + 2 * lanes, differences));
-    return;
+  if constexpr (kWithJacobian) {
+    const int num_columns = static_cast<int>(marker.columns.size());
+    Eigen::Map<Jacobian> columns(jacobian, 3, num_columns);
+    const double factor = marker.u_mm / length;
+    for (int k = 0; k < num_columns; ++k)
+      columns.col(k) += factor * (derivatives[k] - e1.dot(derivatives[k]) * e1);
   }
-
-  Lanes turned_back;
-  Turn(pose.jaw_rotation.transpose(), lanes, differences, &turned_back);
-  for (int k = 0; k < marker.num_linear; ++k) {
-    const double* const turned_form = form(k) + 3 * lanes;
-    add(k, CrossSum(lanes, form(k), form(k) + lanes, form(k) + 2 * lanes, differences) +
-               pose.jaw_rotation * CrossSum(lanes, turned_form, turned_form + lanes,
-                                            turned_form + 2 * lanes, turned_back));
-  }
-  int column = marker.num_linear;
-  if (rotation_parameter_ >= 0) {
-    Lanes swung;
-    Turn(pose.jaw_derivative, lanes, ring.turned, &swung);
-    add(column++, CrossSum(lanes, swung[0].data(), swung[1].data(), swung[2].data(), differences));
-  }
-  Eigen::Vector3d weighted_difference = Eigen::Vector3d::Zero();
-  for (int axis = 0; axis < 3; ++axis)
-    for (int lane = 0; lane < lanes; ++lane)
-      weighted_difference[axis] += marker.edge_slide_weights[lane] * differences[axis][lane];
-  if (thrust_parameter_ >= 0) add(column++, thrust_direction_.cross(weighted_difference));
-  if (shift_parameter_ >= 0) add(column++, shift_direction_.cross(weighted_difference));
+  return marker.u_mm * e1;
 }
 
 Eigen::Vector3d VirtualMarkerEvaluator::Position(const Pose& pose, int marker) const {

@@ -16,8 +16,13 @@ namespace articap {
 //
 // A vertex of the rig is x(y) = A(y) + (R - I) B(y) + w slide, with A its displaced position, B its
 // jaw-weighted arm from the condyles (both affine in the parameters y other than the jaw's), R the
-// jaw's rotation. So are its sums: q's barycentric point, and each edge from v1 to its one-ring, of
-// which the vertex normal is the (normalised) sum of cross products.
+// jaw's rotation; that is f(y) + R t(y) + w slide with f = A - B and t = B. So are its sums: q's
+// barycentric point, and each edge from v1 to its one-ring. The normal at v1, up to its length, is
+// N = sum e_a x e_b over the triangles (v1, a, b), and therefore
+//   N = sum f_a x f_b + R sum t_a x t_b + axial(P R^T) + (m + R n) x slide,
+//   P = sum f_a t_b^T - f_b t_a^T,  m = sum w_b f_a - w_a f_b,  n = sum w_b t_a - w_a t_b,
+// where axial(Q)_i = eps_ijk Q_jk: quadratic forms in (1, y) for the first three, affine m and n.
+// The mesh is not needed any more, however many triangles meet at v1.
 class VirtualMarkerEvaluator {
  public:
   // Keeps no reference to the rig. Vertices and triangles must be the rig's.
@@ -59,25 +64,26 @@ class VirtualMarkerEvaluator {
     Eigen::Matrix3Xd fixed;   // 3 x (1 + num_linear): A - B of the barycentric point
     Eigen::Matrix3Xd turned;  // 3 x (1 + num_linear): B
     double slide_weight = 0;
-    // Edges from v1 to its one-ring, one a lane, for the normal; no lanes where u is 0. A form
-    // takes 6 x num_lanes numbers: fixed x, y, z, then turned x, y, z of every lane.
-    int num_lanes = 0;
-    std::vector<double> edge_forms;
-    std::vector<double> edge_slide_weights;
-    // The next and previous edge round v1; num_lanes where the fan ends.
-    std::vector<int> next_lane, previous_lane;
+    // The normal at v1, where u is not 0.
+    //   forms: for each pair (k, l) of terms of (1, y) a block of numbers, symmetric in k and l:
+    //     sum f_a x f_b, and, where the jaw turns the marker, sum t_a x t_b and P.
+    std::vector<double> normal_forms;
+    Eigen::Matrix3Xd slide_fixed, slide_turned;  // 3 x (1 + num_linear): m and n
   };
 
   Marker Compile(const FaceRig& rig, const VirtualMarker& marker) const;
-  void CompileRing(const FaceRig& rig, int vertex, Marker* marker) const;
+  void CompileNormal(const FaceRig& rig, int vertex, Marker* marker) const;
   template <bool kWithJacobian>
   Eigen::Vector3d Evaluate(const Pose& pose, const Marker& marker, double* jacobian) const;
-  struct Ring;
-  static void PoseRing(const Pose& pose, const Marker& marker, Ring* ring);
   template <bool kWithJacobian>
   Eigen::Vector3d AddNormal(const Pose& pose, const Marker& marker, double* jacobian) const;
-  void AddNormalDerivatives(const Pose& pose, const Marker& marker, const Ring& ring,
-                            const Eigen::Vector3d& normal, double* jacobian) const;
+  static int TermsOf(const Pose& pose, const Marker& marker, double* terms);
+  template <bool kWithJacobian>
+  static Eigen::Vector3d StillNormal(const Pose& pose, const Marker& marker,
+                                     Eigen::Vector3d* derivatives);
+  template <bool kWithJacobian>
+  Eigen::Vector3d TurningNormal(const Pose& pose, const Marker& marker,
+                                Eigen::Vector3d* derivatives) const;
 
   int num_parameters_ = 0;
   int rotation_parameter_ = -1;
