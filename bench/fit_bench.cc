@@ -74,7 +74,7 @@ BENCHMARK(BM_FitFramesWithCeres);
 
 void BM_FitFramesWithPraxis(benchmark::State& state) {
   const SpeechScene& scene = Scene();
-  NormalEquationBuilder builder(Evaluator(), {});
+  LinearizedFrame linearized(Evaluator(), {});
   const int num_parameters = Evaluator().num_parameters();
   std::vector<double> steps, y(num_parameters, 0.0);
   for (int k = 0; k < num_parameters; ++k)
@@ -82,14 +82,14 @@ void BM_FitFramesWithPraxis(benchmark::State& state) {
   std::size_t frame = 0;
   std::int64_t evaluations = 0;
   for (auto _ : state) {
-    evaluations +=
-        MinimizeWithPraxis(
-            [&](const std::vector<double>& x) {
-              return builder.Objective(scene.measured[frame],
-                                       Eigen::Map<const Eigen::VectorXd>(x.data(), num_parameters));
-            },
-            steps, 20000, &y)
-            .evaluations;
+    evaluations += MinimizeWithPraxis(
+                       [&](const std::vector<double>& x) {
+                         return linearized.Objective(
+                             scene.measured[frame],
+                             Eigen::Map<const Eigen::VectorXd>(x.data(), num_parameters));
+                       },
+                       steps, 20000, &y)
+                       .evaluations;
     frame = (frame + 1) % scene.measured.size();
   }
   CountFrames(state);

@@ -26,26 +26,35 @@ struct NormalEquations {
 // One frame's markers: positions in the rig frame, NaN where missing; the order is the evaluator's.
 using MarkerPositions = std::span<const Eigen::Vector3d>;
 
-// Fills the normal equations at y; buffers are reused from call to call.
-class NormalEquationBuilder {
+// One frame with its markers' residuals linearised at some y: r_i(y + d) = r_i + J_i d. Buffers are
+// reused from frame to frame.
+class LinearizedFrame {
  public:
-  // The evaluator must outlive the builder.
-  NormalEquationBuilder(const VirtualMarkerEvaluator& evaluator, const MarkerLoss& loss);
+  // The evaluator must outlive the frame.
+  LinearizedFrame(const VirtualMarkerEvaluator& evaluator, const MarkerLoss& loss);
 
-  void Build(MarkerPositions measured_in_rig, const Eigen::VectorXd& parameters,
-             NormalEquations* equations);
+  void Linearize(MarkerPositions measured_in_rig, const Eigen::VectorXd& parameters);
+
+  // The normal equations at y + d, by the linearised residuals.
+  void Build(const Eigen::VectorXd& d, NormalEquations* equations);
+
+  // The true objective, without derivatives.
   double Objective(MarkerPositions measured_in_rig, const Eigen::VectorXd& parameters) const;
 
-  const VirtualMarkerEvaluator& evaluator() const { return evaluator_; }
-
  private:
-  void AddMarker(int marker, const Eigen::Vector3d& residual, double weight, double curvature,
-                 NormalEquations* equations);
+  struct Marker {
+    std::span<const int> columns;  // the parameters that move it
+    Eigen::Vector3d residual;
+    std::size_t first;  // of its 3 x columns numbers in jacobians_
+  };
+  void AddMarker(const Marker& marker, const Eigen::Vector3d& residual, double weight,
+                 double curvature, NormalEquations* equations);
 
   const VirtualMarkerEvaluator& evaluator_;
   MarkerLoss loss_;
-  std::vector<double> jacobian_;  // 3 x active parameters of one marker
-  std::vector<double> slopes_;    // J^T r of one marker
+  std::vector<Marker> seen_;
+  std::vector<double> jacobians_;
+  std::vector<double> slopes_;  // J^T r of one marker
 };
 
 }  // namespace articap

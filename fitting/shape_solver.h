@@ -17,14 +17,16 @@ struct ShapeSolverOptions {
 // What happened to one frame.
 struct ShapeSolution {
   double objective = 0;
-  int evaluations = 0;  // of all positions and their Jacobian
+  int evaluations = 0;  // of all positions, most of them with their Jacobian
   bool converged = false;
 };
 
 // minimise f(y) = sum_i loss(|q_i(y) - p_i|^2)  subject to  lower <= y <= upper
-// by a damped Newton method (Levenberg-Marquardt on the loss' full second order) whose steps solve
-// the box-constrained quadratic model. Made for thousands of frames with a few dozen markers: no
-// allocation in the loop, warm starts. CeresShapeSolver is its reference.
+// by successive linearisation (Fletcher 1982; "prox-linear"): the markers are linearised at y, the
+// loss of the linearised residuals, which is convex, is minimised over the box, and y moves there.
+// The markers are nearly linear over the step from one frame to the next, so that the kinks of the
+// sum of distances are dealt with in the cheap inner problem and a few evaluations do. Made for
+// thousands of frames with a few dozen markers; CeresShapeSolver is its reference.
 class ShapeSolver {
  public:
   // The evaluator must outlive the solver. A parameter with lower == upper is held there.
@@ -40,15 +42,17 @@ class ShapeSolver {
   ShapeSolution Solve(MarkerPositions measured_in_rig, Eigen::VectorXd* parameters);
 
  private:
-  struct Step {
-    Eigen::VectorXd change;
-    double promised = 0;  // decrease of the model
-  };
-  Step SolveModel(bool far, double damping, const Eigen::VectorXd& parameters);
+  double ToleranceOf(double objective) const;
+  double MinimizeLinearized(double curvature_share);
+  double SolveModel(double curvature_share);
 
-  NormalEquationBuilder builder_;
+  LinearizedFrame frame_;
   Eigen::VectorXd lower_, upper_;
   ShapeSolverOptions options_;
+
+  // Of the inner problem, relative to the y that the frame is linearised at.
+  Eigen::VectorXd box_lower_, box_upper_;
+  Eigen::VectorXd move_, candidate_move_, step_;
   NormalEquations current_, candidate_;
   Eigen::MatrixXd model_;
 };

@@ -38,10 +38,13 @@ class TakeProblem {
   double Linearize(const Eigen::MatrixXd& y) {
     const int num_runs = (num_frames() + kRunLength - 1) / kRunLength;
     ParallelFor(num_runs, setup_.threads, [&](int run) {
-      NormalEquationBuilder builder(setup_.evaluator, setup_.loss);
+      LinearizedFrame linearized(setup_.evaluator, setup_.loss);
+      const Eigen::VectorXd nowhere = Eigen::VectorXd::Zero(y.cols());
       const int end = std::min(num_frames(), (run + 1) * kRunLength);
-      for (int i = run * kRunLength; i < end; ++i)
-        builder.Build(measured_.positions_mm(frames_[i]), y.row(i), &equations_[i]);
+      for (int i = run * kRunLength; i < end; ++i) {
+        linearized.Linearize(measured_.positions_mm(frames_[i]), y.row(i));
+        linearized.Build(nowhere, &equations_[i]);
+      }
     });
     double objective = 0;
     for (int i = 0; i < num_frames(); ++i) objective += equations_[i].objective;

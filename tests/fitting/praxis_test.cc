@@ -28,7 +28,7 @@ TEST(PraxisTest, ShapeFitIsNeverWorse) {
       Eigen::VectorXd::Constant(num_parameters, std::numeric_limits<double>::infinity());
   const MarkerLoss loss;
   ShapeSolver solver(evaluator, -unbounded, unbounded, {.loss = loss});
-  NormalEquationBuilder builder(evaluator, loss);
+  LinearizedFrame linearized(evaluator, loss);
   std::vector<double> steps;
   for (int k = 0; k < num_parameters; ++k)
     steps.push_back(0.05 * (scene.upper[k] - scene.lower[k]));
@@ -42,8 +42,8 @@ TEST(PraxisTest, ShapeFitIsNeverWorse) {
     std::vector<double> x(num_parameters, 0.0);
     const PraxisResult praxis = MinimizeWithPraxis(
         [&](const std::vector<double>& y) {
-          return builder.Objective(measured,
-                                   Eigen::Map<const Eigen::VectorXd>(y.data(), num_parameters));
+          return linearized.Objective(measured,
+                                      Eigen::Map<const Eigen::VectorXd>(y.data(), num_parameters));
         },
         steps, 20000, &x);
     EXPECT_LE(objective, Allowed(praxis.objective)) << "frame " << i;
