@@ -35,6 +35,11 @@ struct StabilizeOptions {
   // A reference this many standard deviations from its place is an outlier of its frame. With noise
   // alone, one in a thousand lies beyond 4.
   double outlier_sigmas = 4;
+  // Smooth the movement of the head as far as cross-validation finds it to be noise? See
+  // tracking/pose_smoothing.h. Mode rigid only.
+  bool smooth_pose = true;
+  // Half of the amplitude remains at this frequency; 0: cross-validation chooses.
+  double pose_cutoff_hz = 0;
   // May samples that gap filling made serve as references?
   bool use_filled = false;
   // At most this many frames, spread evenly over the take, make the reference shape.

@@ -16,6 +16,10 @@ void VisitOptions(StabilizeOptions& options, OptionVisitor& visit) {
         "frames whose references fit worse than this (RMS) are marked");
   visit("outlier_sigmas", options.outlier_sigmas,
         "a reference this many standard deviations from its place is an outlier of its frame");
+  visit("smooth_pose", options.smooth_pose,
+        "smooth the movement of the head as far as cross-validation finds it to be noise");
+  visit("pose_cutoff_hz", options.pose_cutoff_hz,
+        "smooth it to half of the amplitude at this frequency; 0: cross-validation chooses; Hz");
   visit("use_filled", options.use_filled, "may filled samples serve as references?");
   visit("shape_frames", options.shape_frames,
         "at most this many frames, spread over the take, make the reference shape");

@@ -172,6 +172,15 @@ void ReportPoses(const HeadPoseTrack& head_pose, StageReport& report) {
     report.verdict += ": too few to go on with. Choose other references, or fill the gaps of these";
 }
 
+void ReportSmoothing(const PoseSmoothing& smoothing, StageReport& report) {
+  report.figures.emplace_back("pose_noise_mm", smoothing.position_noise_mm);
+  report.figures.emplace_back("pose_noise_deg", smoothing.rotation_noise_deg);
+  if (smoothing.position_cutoff_hz)
+    report.figures.emplace_back("position_cutoff_hz", *smoothing.position_cutoff_hz);
+  if (smoothing.rotation_cutoff_hz)
+    report.figures.emplace_back("rotation_cutoff_hz", *smoothing.rotation_cutoff_hz);
+}
+
 void ReportReferences(const RigidFindings& findings, const StabilizeOptions& options,
                       StageReport& report) {
   report.texts.emplace_back(

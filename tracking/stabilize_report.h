@@ -7,6 +7,7 @@
 
 #include "core/report.h"
 #include "tracking/frame_aligner.h"
+#include "tracking/pose_smoothing.h"
 #include "tracking/reference_search.h"
 #include "tracking/stabilize.h"
 
@@ -51,6 +52,7 @@ struct RigidFindings {
 
 // Counts of the statuses; usable where at least half of the frames have a pose.
 void ReportPoses(const HeadPoseTrack& head_pose, StageReport& report);
+void ReportSmoothing(const PoseSmoothing& smoothing, StageReport& report);
 void ReportReferences(const RigidFindings& findings, const StabilizeOptions& options,
                       StageReport& report);
 

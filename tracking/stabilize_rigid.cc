@@ -13,6 +13,7 @@
 #include "tracking/exchange_check.h"
 #include "tracking/frame_aligner.h"
 #include "tracking/head_axes.h"
+#include "tracking/pose_smoothing.h"
 #include "tracking/reference_shape.h"
 #include "tracking/rigidity.h"
 #include "tracking/shape_check.h"
@@ -144,8 +145,15 @@ HeadPoseStatus StatusOf(const FrameAlignment& alignment, const StabilizeOptions&
 struct PosedTake {
   HeadPoseTrack head_pose;
   ReferenceStatistics statistics;
-  std::vector<int> suspects;  // frames with several outliers
+  std::vector<int> suspects;       // frames with several outliers
+  std::vector<double> precisions;  // relative, of each frame's pose; 0 where it is not known
 };
+
+// A pose is as precise as its references are by number and place, and as they agree.
+double PrecisionOf(const FrameAlignment& alignment, const StabilizeOptions& options) {
+  const double disagreement = std::max(1.0, alignment.rms_mm / options.max_residual_mm);
+  return 1 / std::pow(alignment.rotation_sigma_rad * disagreement, 2);
+}
 
 PosedTake PoseEveryFrame(const StageTracks& tracks, FrameAligner& aligner,
                          const Rigid3d& head_from_shape, const StabilizeOptions& options) {
@@ -153,7 +161,8 @@ PosedTake PoseEveryFrame(const StageTracks& tracks, FrameAligner& aligner,
   PosedTake take{
       {StabilizationMode::kRigid, tracks.rate_hz(), tracks.first_frame(), tracks.start(), {}},
       ReferenceStatistics(num_references),
-      {}};
+      {},
+      std::vector<double>(tracks.num_frames())};
   take.head_pose.poses.resize(tracks.num_frames());
   Eigen::Quaterniond previous = Eigen::Quaterniond::Identity();
   for (int frame = 0; frame < tracks.num_frames(); ++frame) {
@@ -165,6 +174,7 @@ PosedTake PoseEveryFrame(const StageTracks& tracks, FrameAligner& aligner,
       take.statistics.num_seen[i] += aligner.robust_weights()[i] > 0;
     if (!pose.is_known()) continue;
     pose.residual_mm = alignment.rms_mm;
+    take.precisions[frame] = PrecisionOf(alignment, options);
     pose.head_from_stage = head_from_shape * alignment.shape_from_stage;
     // q and -q are one rotation; the sign of the frame before keeps the components continuous.
     if (pose.head_from_stage.rotation.dot(previous) < 0)
@@ -246,6 +256,12 @@ Result<StageResult<Stabilized>> StabilizeRigid(const StageTracks& tracks, const 
   }
 
   PosedTake take = PoseEveryFrame(tracks, aligner, axes.head_from_shape, options);
+  if (options.smooth_pose) {
+    const PoseSmoothing smoothing =
+        SmoothPoses(take.precisions, axes.head_from_shape * CentroidOfKnown(model->points_mm),
+                    options.pose_cutoff_hz, &take.head_pose);
+    ReportSmoothing(smoothing, report);
+  }
   Stabilized output{std::move(take.head_pose), {}, {}};
   output.tracks = ToHead(tracks, output.head_pose);
   output.head_shape = ShapeInHead(tracks, *model, axes.head_from_shape);
