@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "apps/progress.h"
+#include "core/file_io.h"
 
 namespace articap {
 namespace {
@@ -37,6 +39,16 @@ std::optional<HeadShape> SharedShape(const Binding& binding) {
   return shape;
 }
 
+// The frames that the binding was made from, where that was this very file: they say nothing about
+// how well it explains a take.
+Result<FrameRange> BindingFramesIn(const Take& take, const Binding& binding) {
+  const auto reference = std::ranges::find(binding.sources, "reference", &SourceHash::role);
+  if (reference == binding.sources.end()) return FrameRange{};
+  const Result<std::string> bytes = ReadFile(take.path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return HashOf(*bytes) == reference->xxh3 ? binding.reference_frames : FrameRange{};
+}
+
 }  // namespace
 
 Result<BoundReference> BindTake(const Take& reference, const MarkerSet& set, const FaceRig& rig,
@@ -58,8 +70,10 @@ Result<FitOutcome> FitBoundTake(const Take& take, const Binding& binding, const 
   auto stabilized =
       StabilizeTake(take, binding.marker_set, SharedShape(binding), options.stabilize);
   if (!stabilized) return tl::unexpected(stabilized.error());
+  const auto binding_frames = BindingFramesIn(take, binding);
+  if (!binding_frames) return tl::unexpected(binding_frames.error());
   std::vector<StageReport> reports = {take.report, stabilized->report};
-  return FitStabilized(take, std::move(stabilized->output), binding, rig, options, {},
+  return FitStabilized(take, std::move(stabilized->output), binding, rig, options, *binding_frames,
                        std::move(reports));
 }
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
-#include <ranges>
 #include <system_error>
 #include <utility>
 
@@ -35,7 +35,8 @@ class Undo {
   ~Undo() {
     std::error_code ignored;
     for (const fs::path& file : files) fs::remove(file, ignored);
-    for (const fs::path& folder : folders | std::views::reverse) fs::remove(folder, ignored);
+    std::for_each(folders.rbegin(), folders.rend(),
+                  [&](const fs::path& folder) { fs::remove(folder, ignored); });
   }
   void Keep() {
     files.clear();

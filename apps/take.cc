@@ -22,9 +22,9 @@ Result<Take> ReadTake(const std::string& path, const MarkerReadOptions& options,
   Take take{path, std::move(*recording), {}};
   const StageTracks& tracks = take.recording.tracks;
   take.report.stage = "read";
-  take.report.verdict =
-      fmt::format("{}: {} frames of {} markers at {} Hz{}", path, tracks.num_frames(),
-                  tracks.num_markers(), tracks.rate_hz(), mirror ? ", mirrored back" : "");
+  take.report.verdict = fmt::format(
+      "{}: {} frames of {} markers at {} Hz{}", take.path.filename().string(), tracks.num_frames(),
+      tracks.num_markers(), tracks.rate_hz(), mirror ? ", mirrored back" : "");
   take.report.warnings = take.recording.warnings;
   return take;
 }

@@ -114,10 +114,10 @@ Box BoxOf(const FaceRig& rig, bool bounded) {
   return box;
 }
 
-void NoteUndetermined(const FaceRig& rig, const Determination& determination,
+// `sigmas`: of each parameter were all of them free.
+void NoteUndetermined(const FaceRig& rig, const Eigen::VectorXd& sigmas,
                       const std::vector<bool>& determined, const FitOptions& options,
                       StageReport* report) {
-  const Eigen::VectorXd sigmas = determination.Sigmas();
   std::vector<std::string> held, kept;
   for (int k = 0; k < rig.num_parameters(); ++k) {
     const RigParameter& parameter = rig.definition().parameters[k];
@@ -143,6 +143,85 @@ std::vector<int> SpreadFrames(int num_frames, int wanted) {
     frames.push_back(static_cast<int>((2LL * i + 1) * num_frames / (2LL * count)));
   return frames;
 }
+
+// Prior weights on second differences; see FitOptions::smoothing_s.
+Eigen::VectorXd SmoothingWeights(const FitOptions& options, const Eigen::VectorXd& ranges,
+                                 double rate_hz, double sigma_rig_mm) {
+  // An acceleration of one range per smoothing_s^2, as a second difference of frames.
+  const double frames = options.smoothing_s * rate_hz;
+  const Eigen::VectorXd typical = ranges / (frames * frames);
+  const double cost =
+      options.metric == FitMetric::kDistance ? 0.5 * sigma_rig_mm : sigma_rig_mm * sigma_rig_mm;
+  return cost * typical.array().square().inverse();
+}
+
+// The markers of one take, fitted as often as their places on the rig change.
+class TakeFitter {
+ public:
+  // Everything must outlive the fitter.
+  TakeFitter(const FaceRig& rig, const Eigen::VectorXd& reference, const RigTracks& measured,
+             double rig_scale, const FitOptions& options)
+      : rig_(rig),
+        reference_(reference),
+        measured_(measured),
+        marker_sigma_mm_(rig_scale * options.marker_sigma_mm),
+        options_(options),
+        box_(BoxOf(rig, options.bounded)) {}
+
+  struct Pass {
+    FrameFits fits;
+    std::vector<bool> determined;
+    Eigen::VectorXd sigmas;  // of each parameter were all of them free
+    int smoothing_steps = 0;
+  };
+
+  // Frame by frame, then with the smoothness prior where `smooth` and the options ask for it.
+  Pass Run(const std::vector<VirtualMarker>& markers, bool smooth,
+           const std::function<void(double part)>& progress) const {
+    const VirtualMarkerEvaluator evaluator(rig_, markers);
+    const Determination determination(evaluator, reference_, box_.ranges, marker_sigma_mm_,
+                                      options_.max_sigma_of_range);
+    const auto all_seen = std::make_unique<bool[]>(markers.size());
+    std::fill_n(all_seen.get(), markers.size(), true);
+    Pass pass;
+    pass.determined = determination.Determined({all_seen.get(), markers.size()});
+    pass.sigmas = determination.Sigmas();
+    const FrameFitSetup setup{evaluator,  determination,   reference_,
+                              box_.lower, box_.upper,      pass.determined,
+                              LossOf(),   options_.solver, options_.threads};
+    pass.fits = FitFrames(measured_, setup, progress);
+    if (smooth && options_.smoothing_s > 0) {
+      pass.smoothing_steps =
+          SmoothFits(measured_, setup,
+                     SmoothingWeights(options_, box_.ranges, measured_.rate_hz(), marker_sigma_mm_),
+                     &pass.fits);
+      EvaluateFits(measured_, setup, &pass.fits);
+    }
+    return pass;
+  }
+
+  // Poses and places in turn, from the markers as they were bound.
+  std::vector<VirtualMarker> Refine(const std::vector<VirtualMarker>& bound,
+                                    const std::vector<int>& frames) const {
+    std::vector<VirtualMarker> markers = bound;
+    for (int round = 0; round < kRefinementRounds; ++round) {
+      const Pass pass = Run(markers, false, nullptr);
+      markers = RefineAttachments(rig_, bound, markers, measured_, frames, pass.fits.parameters,
+                                  kRefinementReach_mm);
+    }
+    return markers;
+  }
+
+ private:
+  MarkerLoss LossOf() const { return {options_.metric, options_.epsilon_mm, options_.huber_mm}; }
+
+  const FaceRig& rig_;
+  const Eigen::VectorXd& reference_;
+  const RigTracks& measured_;
+  double marker_sigma_mm_;  // mm of the rig
+  const FitOptions& options_;
+  Box box_;
+};
 
 RigTracks VirtualMarkerTracks(const RigTracks& measured, const FrameFits& fits) {
   RigTracks tracks(measured.names(), measured.num_frames(), measured.rate_hz(),
@@ -232,17 +311,6 @@ std::vector<bool> MouthOrChin(const FaceRig& rig, const std::vector<VirtualMarke
   return is_mouth_or_chin;
 }
 
-// Prior weights on second differences; see FitOptions::smoothing_s.
-Eigen::VectorXd SmoothingWeights(const FitOptions& options, const Eigen::VectorXd& ranges,
-                                 double rate_hz, double sigma_rig_mm) {
-  // An acceleration of one range per smoothing_s^2, as a second difference of frames.
-  const double frames = options.smoothing_s * rate_hz;
-  const Eigen::VectorXd typical = ranges / (frames * frames);
-  const double cost =
-      options.metric == FitMetric::kDistance ? 0.5 * sigma_rig_mm : sigma_rig_mm * sigma_rig_mm;
-  return cost * typical.array().square().inverse();
-}
-
 std::string VerdictOf(const ShapeFit& fit, const ExplainedVariance& explained, int num_determined) {
   int fitted = 0;
   for (const double residual : fit.parameters.residuals_mm) fitted += std::isfinite(residual);
@@ -302,66 +370,38 @@ Result<StageResult<ShapeFit>> Fit(const HeadTracks& tracks, const Binding& bindi
   const double scale = binding.rig_from_head.scale;
   const RigTracks measured =
       WithoutSpikes(MeasuredInRig(tracks, face, binding.rig_from_head), options, scale, &report);
-  const Box box = BoxOf(*own_rig, options.bounded);
-  const MarkerLoss loss{options.metric, options.epsilon_mm, options.huber_mm};
   std::vector<bool> judged(measured.num_frames());
   for (int frame = 0; frame < measured.num_frames(); ++frame)
     judged[frame] = !binding_frames.Contains(measured.first_frame() + frame);
 
-  const auto fit_frames = [&](const std::vector<VirtualMarker>& markers, const RigTracks& frames,
-                              std::vector<bool>* determined, bool final) {
-    const VirtualMarkerEvaluator evaluator(*own_rig, markers);
-    const Determination determination(evaluator, *reference, box.ranges,
-                                      scale * options.marker_sigma_mm, options.max_sigma_of_range);
-    const auto all_seen = std::make_unique<bool[]>(markers.size());
-    std::fill_n(all_seen.get(), markers.size(), true);
-    *determined = determination.Determined({all_seen.get(), markers.size()});
-    if (final) NoteUndetermined(*own_rig, determination, *determined, options, &report);
-    const FrameFitSetup setup{evaluator,   determination, *reference,     box.lower,      box.upper,
-                              *determined, loss,          options.solver, options.threads};
-    FrameFits fits = FitFrames(frames, setup, final ? progress : nullptr);
-    if (final && options.smoothing_s > 0) {
-      const int steps = SmoothFits(
-          frames, setup,
-          SmoothingWeights(options, box.ranges, frames.rate_hz(), scale * options.marker_sigma_mm),
-          &fits);
-      EvaluateFits(frames, setup, &fits);
-      report.figures.emplace_back("smoothing_steps", steps);
-    }
-    return fits;
-  };
-
-  std::vector<bool> determined;
+  const TakeFitter fitter(*own_rig, *reference, measured, scale, options);
   if (options.refine_frames > 0) {
     const std::vector<int> chosen = SpreadFrames(measured.num_frames(), options.refine_frames);
     for (const int frame : chosen) judged[frame] = false;
-    const std::vector<VirtualMarker> bound = face.markers;
-    for (int round = 0; round < kRefinementRounds; ++round) {
-      const FrameFits fits = fit_frames(face.markers, measured, &determined, false);
-      face.markers = RefineAttachments(*own_rig, bound, face.markers, measured, chosen,
-                                       fits.parameters, kRefinementReach_mm);
-    }
+    face.markers = fitter.Refine(face.markers, chosen);
     report.figures.emplace_back("refined_from_frames", static_cast<double>(chosen.size()));
   }
-  const FrameFits fits = fit_frames(face.markers, measured, &determined, true);
+  const TakeFitter::Pass pass = fitter.Run(face.markers, true, progress);
+  NoteUndetermined(*own_rig, pass.sigmas, pass.determined, options, &report);
+  if (options.smoothing_s > 0) report.figures.emplace_back("smoothing_steps", pass.smoothing_steps);
 
   const int num_determined =
-      static_cast<int>(std::count(determined.begin(), determined.end(), true));
+      static_cast<int>(std::count(pass.determined.begin(), pass.determined.end(), true));
   ShapeFit fit{.parameters = {},
                .measured = measured,
-               .virtual_markers = VirtualMarkerTracks(measured, fits),
+               .virtual_markers = VirtualMarkerTracks(measured, pass.fits),
                .residuals_mm = {}};
   fit.residuals_mm = Residuals(measured, fit.virtual_markers, scale);
   const double sigma_mm = MarkerSigma_mm(fit.residuals_mm, num_determined);
   const double inefficiency = options.metric == FitMetric::kDistance ? kDistanceInefficiency : 1;
   fit.parameters =
-      TrackOf(*own_rig, measured, fits, fit.residuals_mm, inefficiency * scale * sigma_mm);
+      TrackOf(*own_rig, measured, pass.fits, fit.residuals_mm, inefficiency * scale * sigma_mm);
   report.figures.emplace_back("marker_sigma_mm", sigma_mm);
-  report.figures.emplace_back("evaluations_per_frame", static_cast<double>(fits.evaluations) /
+  report.figures.emplace_back("evaluations_per_frame", static_cast<double>(pass.fits.evaluations) /
                                                            std::max(1, measured.num_frames()));
   const ExplainedVariance explained =
       ExplainVariance(fit, judged, MouthOrChin(*own_rig, face.markers));
-  DescribeFit(fit, *own_rig, determined, explained, &report);
+  DescribeFit(fit, *own_rig, pass.determined, explained, &report);
   report.verdict = VerdictOf(fit, explained, num_determined);
   report.usable = report.verdict.rfind("not usable", 0) != 0;
   return StageResult<ShapeFit>{std::move(fit), std::move(report)};

@@ -17,7 +17,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr int kTeeth = 6;  // a quadrant shows: two incisors, canine, premolars, a molar
-constexpr int kColumnsPerTooth = 3;
 
 struct Arch {
   // The labial surface is an ellipse about (0, kArchCenterZ).

@@ -10,6 +10,7 @@
 #include "fitting/fit.h"
 #include "rig/default_head/default_head.h"
 #include "rig/io/import.h"
+#include "tests/support/result.h"
 #include "tests/support/test_data.h"
 #include "tracking/stabilize.h"
 
@@ -46,12 +47,6 @@ struct RealFit {
                                           [](double residual) { return std::isfinite(residual); }));
   }
 };
-
-template <class T>
-T OrThrow(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().message);
-  return *std::move(result);
-}
 
 RealFit FitRecording(const std::string& recording, const std::string& map, const FaceRig& rig,
                      const FitOptions& options) {

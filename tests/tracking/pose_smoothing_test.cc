@@ -96,8 +96,7 @@ TEST(PoseSmoothingTest, NoiseGoesAndNodsStay) {
 TEST(PoseSmoothingTest, WithoutNoiseThereIsNothingToGain) {
   HeadPoseTrack track = MakeTrack(600, 9, {0, 0});
   const HeadPoseTrack before = track;
-  const PoseSmoothing smoothing =
-      SmoothPoses(std::vector<double>(600, 1.0), kPivot_mm, 0, &track);
+  const PoseSmoothing smoothing = SmoothPoses(std::vector<double>(600, 1.0), kPivot_mm, 0, &track);
   EXPECT_FALSE(smoothing.rotation_cutoff_hz.has_value());
   EXPECT_FALSE(smoothing.position_cutoff_hz.has_value());
   for (int frame = 0; frame < 600; ++frame)
@@ -109,8 +108,8 @@ TEST(PoseSmoothingTest, UnknownPosesStayUnknownAndCountForNothing) {
   HeadPoseTrack track = MakeTrack(2000, 1, {});
   std::vector<double> weights(2000, 1.0);
   const auto hide = [&](int frame) {
-    track.poses[frame] = {{}, std::numeric_limits<double>::quiet_NaN(),
-                          HeadPoseStatus::kTooFewReferences};
+    track.poses[frame] = {
+        {}, std::numeric_limits<double>::quiet_NaN(), HeadPoseStatus::kTooFewReferences};
     weights[frame] = 0;
   };
   for (int frame = 500; frame < 900; ++frame) hide(frame);
@@ -150,8 +149,7 @@ TEST(PoseSmoothingTest, AHandfulOfPosesIsLeftAlone) {
   HeadPoseTrack track = MakeTrack(29, 1, {});
   const HeadPoseTrack before = track;
   SmoothPoses(std::vector<double>(29, 1.0), kPivot_mm, 0, &track);
-  EXPECT_THAT(track.poses[10].head_from_stage,
-              Rigid3dNear(before.poses[10].head_from_stage, 0, 0));
+  EXPECT_THAT(track.poses[10].head_from_stage, Rigid3dNear(before.poses[10].head_from_stage, 0, 0));
 }
 
 }  // namespace
