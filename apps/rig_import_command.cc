@@ -13,7 +13,8 @@ namespace articap {
 
 // In the namespace of the struct, where VerbLine looks for it.
 static void VisitOptions(ImportOptions& options, OptionVisitor& visit) {
-  visit("unit", options.unit, "unit of length of the input: mm, cm, dm, m or in, instead of the recipe's");
+  visit("unit", options.unit,
+        "unit of length of the input: mm, cm, dm, m or in, instead of the recipe's");
   visit("use_jaw_joint", options.use_jaw_joint, "let the jaw turn, where the recipe has a joint");
 }
 

@@ -38,7 +38,7 @@ StageTracks MakeTake(const MarkerSet& set, int num_frames, double outliers) {
     for (int marker = 0; marker < tracks.num_markers(); ++marker) {
       Eigen::Vector3d point_mm =
           rotation * FindLandmark(names[static_cast<std::size_t>(marker)])->typical_mm;
-      point_mm += 0.2 * Eigen::Vector3d(normal(random), normal(random), normal(random));
+      point_mm += 0.2 * Eigen::Vector3d{normal(random), normal(random), normal(random)};
       if (uniform(random) < outliers) point_mm.x() += 10;
       tracks.Set(frame, marker, point_mm);
     }

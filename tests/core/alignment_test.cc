@@ -25,7 +25,7 @@ Points RandomPoints(std::mt19937& random, int count) {
 
 Sim3d RandomSimilarity(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  const Eigen::Quaterniond rotation(normal(random), normal(random), normal(random), normal(random));
+  const Eigen::Quaterniond rotation{normal(random), normal(random), normal(random), normal(random)};
   return {std::exp(0.3 * normal(random)), rotation.normalized(), RandomPoints(random, 1)[0]};
 }
 
@@ -39,7 +39,7 @@ Points Moved(const Transform& target_from_source, const Points& points) {
 Points WithNoise(std::mt19937& random, Points points, double sigma_mm) {
   std::normal_distribution<double> noise(0, sigma_mm);
   for (Eigen::Vector3d& point : points)
-    point += Eigen::Vector3d(noise(random), noise(random), noise(random));
+    point += Eigen::Vector3d{noise(random), noise(random), noise(random)};
   return points;
 }
 

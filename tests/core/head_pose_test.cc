@@ -20,7 +20,7 @@ HeadPoseTrack SampleTrack() {
   for (int i = 0; i < 50; ++i) {
     HeadPose pose;
     pose.head_from_stage.rotation =
-        Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+        Eigen::Quaterniond{normal(random), normal(random), normal(random), normal(random)}
             .normalized();
     pose.head_from_stage.translation_mm = {normal(random), 1e3 * normal(random), normal(random)};
     pose.residual_mm = std::abs(normal(random));

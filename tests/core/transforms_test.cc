@@ -17,7 +17,7 @@ Eigen::Vector3d RandomPoint(std::mt19937& random) {
 
 Eigen::Quaterniond RandomRotation(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+  return Eigen::Quaterniond{normal(random), normal(random), normal(random), normal(random)}
       .normalized();
 }
 

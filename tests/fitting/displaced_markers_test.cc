@@ -27,7 +27,7 @@ ShapeFit NoisyFit() {
       const Eigen::Vector3d place(10 * marker, 0, 0);
       fit.virtual_markers.Set(frame, marker, place);
       fit.measured.Set(frame, marker,
-                       place + Eigen::Vector3d(noise(random), noise(random), noise(random)));
+                       place + Eigen::Vector3d{noise(random), noise(random), noise(random)});
     }
   return fit;
 }

@@ -26,7 +26,7 @@ std::vector<PointPair> MakePairs(double sigma_mm = 0, unsigned seed = 1) {
                                        {45, 25, -8},
                                        {-45, 25, -8}})
     pairs.push_back({"p" + std::to_string(pairs.size()),
-                     point + Eigen::Vector3d(noise(random), noise(random), noise(random)),
+                     point + Eigen::Vector3d{noise(random), noise(random), noise(random)},
                      kTruth * point});
   return pairs;
 }

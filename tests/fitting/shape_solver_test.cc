@@ -49,7 +49,7 @@ struct Scene {
     std::vector<Eigen::Vector3d> measured;
     for (int i = 0; i < positions.cols(); ++i)
       measured.push_back(positions.col(i) +
-                         Eigen::Vector3d(noise(random), noise(random), noise(random)));
+                         Eigen::Vector3d{noise(random), noise(random), noise(random)});
     return measured;
   }
 };

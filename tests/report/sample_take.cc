@@ -160,7 +160,7 @@ SampleTake MakeSampleTake(const FaceRig& rig, int num_frames, double rate_hz) {
       const double sigma_mm =
           0.15 + 0.04 * static_cast<double>(k % 9) + (k % 11 == 3 && frame % 300 < 40 ? 1.5 : 0);
       const Eigen::Vector3d p =
-          q + sigma_mm * Eigen::Vector3d(normal(random), normal(random), normal(random));
+          q + sigma_mm * Eigen::Vector3d{normal(random), normal(random), normal(random)};
       take.virtual_markers.Set(frame, marker, q);
       if (k % 13 == 5 && frame % 220 > 180) continue;  // a marker that is lost now and then
       take.measured.Set(frame, marker, p);

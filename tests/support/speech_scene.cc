@@ -41,7 +41,7 @@ SpeechScene MakeSpeechScene(int num_sentences, double noise_mm, int seed) {
     std::vector<Eigen::Vector3d> measured;
     for (Eigen::Index i = 0; i < positions.cols(); ++i)
       measured.push_back(positions.col(i) +
-                         Eigen::Vector3d(noise(random), noise(random), noise(random)));
+                         Eigen::Vector3d{noise(random), noise(random), noise(random)});
     scene.measured.push_back(std::move(measured));
   }
   return scene;

@@ -64,8 +64,8 @@ HeadScene MakeHeadScene(const HeadSceneOptions& options) {
       const LandmarkInfo& landmark = *FindLandmark(scene.set.markers[i].landmark);
       Eigen::Vector3d point_mm = stage_from_truth * (landmark.typical_mm + Talk(landmark, time_s));
       point_mm +=
-          options.noise_mm * Eigen::Vector3d(normal(random), normal(random), normal(random));
-      const Eigen::Vector3d direction(normal(random), normal(random), normal(random));
+          options.noise_mm * Eigen::Vector3d{normal(random), normal(random), normal(random)};
+      const Eigen::Vector3d direction{normal(random), normal(random), normal(random)};
       if (uniform(random) < options.outliers)
         point_mm += options.outlier_mm * direction.normalized();
       if (uniform(random) >= options.dropout)

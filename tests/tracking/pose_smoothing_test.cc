@@ -39,7 +39,7 @@ HeadPoseTrack MakeTrack(int num_frames, double nod_hz, const Noise& noise, unsig
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   const auto deviates = [&] {
-    return Eigen::Vector3d(normal(random), normal(random), normal(random));
+    return Eigen::Vector3d{normal(random), normal(random), normal(random)};
   };
   HeadPoseTrack track{StabilizationMode::kRigid, kRate_hz, 1, {}, {}};
   for (int frame = 0; frame < num_frames; ++frame) {

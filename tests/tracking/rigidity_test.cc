@@ -29,10 +29,10 @@ TEST(DistanceStatisticsTest, SplitsTheNoiseAmongTheMarkers) {
   StageTracks tracks({"a", "b", "c", "d", "e", "never"}, 2000, 60);
   for (int frame = 0; frame < 2000; ++frame) {
     const Eigen::Quaterniond rotation =
-        Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+        Eigen::Quaterniond{normal(random), normal(random), normal(random), normal(random)}
             .normalized();
     for (int i = 0; i < 5; ++i) {
-      Eigen::Vector3d noise_mm(normal(random), normal(random), normal(random));
+      Eigen::Vector3d noise_mm{normal(random), normal(random), normal(random)};
       noise_mm *= uniform(random) < 0.02 ? 10 : sigmas_mm[i];  // outliers must not count
       tracks.Set(frame, i, rotation * (places_mm[i] + noise_mm));
     }

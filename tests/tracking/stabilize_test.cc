@@ -286,7 +286,7 @@ TEST(StabilizeRigidTest, StatedSigmasCount) {
   const int marker = *scene.tracks.Find("spectacles_1");
   for (int frame = 0; frame < 1000; ++frame) {
     const bool is_bad = frame % 4 == 0;
-    const Eigen::Vector3d extra_mm(normal(random), normal(random), normal(random));
+    const Eigen::Vector3d extra_mm{normal(random), normal(random), normal(random)};
     for (int other = 0; other < scene.tracks.num_markers(); ++other)
       scene.tracks.Set(frame, other,
                        scene.tracks.position_mm(frame, other) +
@@ -420,8 +420,9 @@ TEST(StabilizeWithShapeTest, ExchangedReferencesAreNamed) {
 }
 
 TEST(StabilizeWithShapeTest, SpectaclesSeatedAnewAreFoundByWitnesses) {
-  const HeadScene scene = MakeHeadScene({});
+  const HeadScene scene = MakeHeadScene({.noise_mm = 0});
   HeadShape shape = scene.references;
+  // sqrt(5^2 + 3^2) = 5.83 mm.
   for (NamedPoint& point : shape.points) point.point_in_head_mm += Eigen::Vector3d(0, 5, 3);
   for (const char* name : {"nose_bridge", "left_brow_inner", "right_brow_outer"}) {
     const HeadScene& truth = scene;
@@ -429,7 +430,7 @@ TEST(StabilizeWithShapeTest, SpectaclesSeatedAnewAreFoundByWitnesses) {
     shape.points.push_back({name, truth.truth_from_stage[0] * truth.tracks.position_mm(0, marker)});
   }
   EXPECT_THAT(StabilizeOrDie(scene.tracks, scene.set, shape).report.warnings,
-              Contains(AllOf(HasSubstr("seated anew"), HasSubstr("'nose_bridge' 5."))));
+              Contains(AllOf(HasSubstr("seated anew"), HasSubstr("'nose_bridge' 5.8 mm"))));
 }
 
 TEST(StabilizeWithShapeTest, WorksWithoutAMap) {
