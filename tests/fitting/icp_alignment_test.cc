@@ -112,8 +112,6 @@ Errors MeasureErrors(int num_cases, unsigned seed, const IcpOptions& options,
   return {errors_deg[errors_deg.size() / 2], errors_deg.back()};
 }
 
-#ifdef ARTICAP_WITH_PCL
-
 TEST(IcpAlignmentTest, LandmarkCloudsThirtyDegreesOffComeHome) {
   const Errors errors = MeasureErrors(8, 1, {}, LandmarkCloud);
   EXPECT_LT(errors.median_deg, 3);
@@ -157,17 +155,6 @@ TEST(IcpAlignmentTest, RefusesWhatIsNoFace) {
   ASSERT_FALSE(tiny);
   EXPECT_THAT(tiny.error().message, HasSubstr("check the unit of length"));
 }
-
-#else
-
-TEST(IcpAlignmentTest, BuildsWithoutPclSaySo) {
-  Dice dice(1);
-  const auto alignment = AlignCloudToRig(LandmarkCloud(DefaultHead(), dice), DefaultHead());
-  ASSERT_FALSE(alignment);
-  EXPECT_THAT(alignment.error().message, HasSubstr("has no PCL"));
-}
-
-#endif
 
 }  // namespace
 }  // namespace articap

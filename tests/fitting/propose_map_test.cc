@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "core/marker_io.h"
-#include "fitting/marker_motion.h"
 #include "rig/default_head/default_head.h"
 #include "synthetic/speaker.h"
 #include "tests/support/test_data.h"
@@ -67,23 +66,6 @@ Agreement Compare(const MarkerSet& proposed, const MarkerSet& truth,
   return agreement;
 }
 
-TEST(MarkerMotionTest, MarkersOnTheSkullAreStillWhileTheHeadMoves) {
-  const SyntheticTake take = Speaker(5);
-  const MarkerMotion motion = MeasureMarkerMotion(take.markers.tracks);
-  ASSERT_EQ(motion.markers.size(), 35u);
-  EXPECT_TRUE(motion.left_out.empty());
-  for (const MarkerMotion::Marker& marker : motion.markers) {
-    if (marker.name.starts_with("spectacles")) {
-      EXPECT_LT(marker.motion_mm, 0.2) << marker.name;
-    }
-    if (marker.name == "chin") {
-      EXPECT_GT(marker.motion_mm, 1);
-    }
-  }
-}
-
-#ifdef ARTICAP_WITH_PCL
-
 // z is up, which the first case does not know, and the speaker looks anywhere.
 TEST(ProposeMapTest, FindsThePlacesOfASyntheticSpeakersMarkers) {
   for (const int seed : {1, 2}) {
@@ -140,8 +122,6 @@ TEST(ProposeMapTest, NamesAxesThatContradictOneAnother) {
   ASSERT_FALSE(proposal);
   EXPECT_THAT(proposal.error().message, HasSubstr("right angles"));
 }
-
-#endif
 
 }  // namespace
 }  // namespace articap

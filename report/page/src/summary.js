@@ -39,8 +39,6 @@ export function showStages(stages) {
   document.getElementById('stages').append(...stages.map(stageCard));
 }
 
-const kFiguresShown = 8;
-
 /** A list of [name, text]; long texts take a line of their own. */
 function figureList(entries) {
   const kLongest = 26;
@@ -59,10 +57,9 @@ function stageCard({stage, usable, verdict, figures, texts, tables, options}) {
   const card = element('article', {class: 'card stage-card'},
       element('header', {}, element('h2', {}, stage),
               element('span', {class: `mark ${usable ? 'good' : 'bad'}`}, usable ? '✓ usable' : '✗ not usable')),
-      element('p', {class: 'says'}, verdict), figureList(entries.slice(0, kFiguresShown)));
-  if (entries.length > kFiguresShown)
-    card.append(element('details', {}, element('summary', {}, `${entries.length - kFiguresShown} more figures`),
-                        figureList(entries.slice(kFiguresShown))));
+      element('p', {class: 'says'}, verdict));
+  if (entries.length)
+    card.append(element('details', {}, element('summary', {}, `figures (${entries.length})`), figureList(entries)));
   for (const table of tables) if (table.rows.length) card.append(tableDetails(table));
   if (options.length)
     card.append(element('details', {}, element('summary', {}, 'options used'),
