@@ -14,7 +14,7 @@ namespace articap {
 namespace {
 
 struct BindArguments {
-  std::string reference, rig_folder, map, output, ply;
+  std::string reference, rig_folder, map, output, ply, config;
   PipelineOptions pipeline;
 };
 
@@ -57,7 +57,9 @@ Result<std::vector<StageReport>> RunBind(const BindArguments& arguments) {
     if (!ply) return tl::unexpected(ply.error());
     outputs.Add(arguments.ply, *ply);
   }
-  if (const auto allowed = outputs.RefuseToOverwrite({arguments.reference}); !allowed)
+  if (const auto allowed = outputs.RefuseToOverwrite(
+          {arguments.reference, MapInput(arguments.map), arguments.config});
+      !allowed)
     return tl::unexpected(allowed.error());
   if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
   return bound->reports;
@@ -84,6 +86,7 @@ ExitCode BindCommand(const std::vector<std::string>& arguments) {
   line.Stage("read", values.pipeline.read);
   line.Stage("stabilize", values.pipeline.stabilize, "stabilize");
   if (const auto exit = line.Parse(arguments)) return *exit;
+  values.config = line.config_path();
   const auto reports = RunBind(values);
   return reports ? line.Finish(*reports) : FailWith(reports.error());
 }

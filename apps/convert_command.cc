@@ -63,9 +63,12 @@ ExitCode ConvertCommand(const std::vector<std::string>& arguments) {
   const Result<MarkerRecording> recording =
       WithProgress("reading " + input, [&] { return ReadMarkers(input, read_options); });
   if (!recording) return FailWith(recording.error());
+  if (const auto limit = LimitExceeded(*recording, *format))
+    return FailWith(ExitCode::kNotUsable,
+                    fmt::format("{} has {}; write another format", input, *limit));
   OutputSet outputs;
   outputs.Add(output, FormatMarkers(*recording, *format));
-  if (const auto allowed = outputs.RefuseToOverwrite({input}); !allowed)
+  if (const auto allowed = outputs.RefuseToOverwrite({input, line.config_path()}); !allowed)
     return FailWith(allowed.error());
   if (const auto written = outputs.Commit(); !written) return FailWith(written.error());
   return line.Finish({DescribeConversion(*recording, *format, output)});

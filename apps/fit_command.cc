@@ -16,7 +16,7 @@ namespace articap {
 namespace {
 
 struct FitArguments {
-  std::string markers, binding, rig_folder, map, reference, labels, tier, window, output;
+  std::string markers, binding, rig_folder, map, reference, labels, tier, window, output, config;
   PipelineOptions pipeline;
 };
 
@@ -32,6 +32,13 @@ std::string WrongUsage(const FitArguments& arguments) {
            "with --map to bind the take by itself";
   if (!arguments.binding.empty() && !(arguments.map.empty() && arguments.reference.empty()))
     return "--binding holds the map and the reference already; leave --map and --reference out";
+  if (!arguments.binding.empty() &&
+      EchoOptions(arguments.pipeline.bind) != EchoOptions(BindOptions()))
+    return "--bind-... say how a speaker is bound, which --binding holds already; leave them out, "
+           "or "
+           "bind anew with 'articap bind'";
+  if (!arguments.tier.empty() && arguments.labels.empty())
+    return "--tier names a tier of the labels; give these with --labels";
   if (!arguments.reference.empty() && !arguments.pipeline.bind.frames.empty() &&
       !IsReferenceFile(arguments))
     return "--reference and --bind-frames both name frames; give one of them";
@@ -83,11 +90,11 @@ Result<FitOutcome> FitByReference(const Take& take, const FaceRig& rig,
   return FitBoundTake(take, bound->binding, rig, options);
 }
 
-Result<void> AddLabels(const FitArguments& arguments, ParameterTrack& track) {
+Result<void> AddLabels(const FitArguments& arguments, FitOutcome& outcome) {
   if (arguments.labels.empty()) return {};
   const Result<TextGrid> labels = ReadTextGrid(arguments.labels);
   if (!labels) return tl::unexpected(labels.error());
-  const Result<void> labelled = LabelFrames(*labels, arguments.tier, track);
+  const Result<void> labelled = LabelFrames(*labels, arguments.tier, outcome);
   if (!labelled) return Fail(fmt::format("{}: {}", arguments.labels, labelled.error().message));
   return {};
 }
@@ -102,13 +109,14 @@ Result<std::vector<StageReport>> RunFit(const FitArguments& arguments) {
   if (!take) return tl::unexpected(take.error());
   Result<FitOutcome> outcome = FitByReference(*take, *rig, arguments);
   if (!outcome) return tl::unexpected(outcome.error());
-  if (const auto labelled = AddLabels(arguments, outcome->fit.parameters); !labelled)
+  if (const auto labelled = AddLabels(arguments, *outcome); !labelled)
     return tl::unexpected(labelled.error());
 
   const Result<OutputSet> outputs = FitOutputs(*outcome, *rig, *window, arguments.output);
   if (!outputs) return tl::unexpected(outputs.error());
-  const auto allowed = outputs->RefuseToOverwrite(
-      {arguments.markers, arguments.binding, arguments.reference, arguments.labels});
+  const auto allowed =
+      outputs->RefuseToOverwrite({arguments.markers, arguments.binding, arguments.reference,
+                                  arguments.labels, MapInput(arguments.map), arguments.config});
   if (!allowed) return tl::unexpected(allowed.error());
   const auto written = WithProgress("writing", [&] { return outputs->Commit(); });
   if (!written) return tl::unexpected(written.error());
@@ -144,6 +152,7 @@ ExitCode FitCommand(const std::vector<std::string>& arguments) {
   if (const auto exit = line.Parse(arguments)) return *exit;
   if (const std::string wrong = WrongUsage(values); !wrong.empty())
     return FailWith(ExitCode::kWrongUsage, wrong);
+  values.config = line.config_path();
   const auto reports = RunFit(values);
   return reports ? line.Finish(*reports) : FailWith(reports.error());
 }

@@ -17,11 +17,14 @@ namespace {
 // Frames counted from 0 whose times lie in the window.
 Result<FrameWindow> FramesOf(const TimeWindow& window, const ParameterTrack& track) {
   const double start_s = SecondsOf(track.start);
-  const int first =
-      std::max(0, static_cast<int>(std::ceil((window.start_s - start_s) * track.rate_hz - 1e-6)));
+  // Clamped before they become integers: a window may reach as far as it likes.
+  const auto frame_at = [&](double time_s) {
+    return std::clamp((time_s - start_s) * track.rate_hz, -1.0,
+                      static_cast<double>(track.num_frames()));
+  };
+  const int first = std::max(0, static_cast<int>(std::ceil(frame_at(window.start_s) - 1e-6)));
   const int last =
-      std::min(track.num_frames() - 1,
-               static_cast<int>(std::floor((window.end_s - start_s) * track.rate_hz + 1e-6)));
+      std::min(track.num_frames() - 1, static_cast<int>(std::floor(frame_at(window.end_s) + 1e-6)));
   if (last < first)
     return Fail(fmt::format(
         "--window {}:{}: the take has no frame there, it lasts from {:.3f} to "

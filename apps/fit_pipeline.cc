@@ -86,13 +86,31 @@ Result<FitOutcome> FitTakeByItself(const Take& take, const MarkerSet& set, const
                        binding_frames, std::move(bound->reports));
 }
 
-Result<void> LabelFrames(const TextGrid& labels, const std::string& tier, ParameterTrack& track) {
+Result<void> LabelFrames(const TextGrid& labels, const std::string& tier, FitOutcome& outcome) {
   const auto phones = FindPhoneTier(labels, tier);
   if (!phones) return tl::unexpected(phones.error());
+  ParameterTrack& track = outcome.fit.parameters;
   std::vector<SessionTime> times;
   for (int frame = 0; frame < track.num_frames(); ++frame)
     times.push_back(TimeOfFrame(frame, track.rate_hz, track.start));
   track.phones = LabelsOfFrames(**phones, times);
+
+  const auto num_labelled =
+      std::ranges::count_if(track.phones, [](const std::string& phone) { return !phone.empty(); });
+  const auto num_frames = track.num_frames();
+  if (num_labelled == 0 && num_frames > 0)
+    return Fail(fmt::format(
+        "no frame of the take has a label: it lasts from {:.3f} to {:.3f} s, the tier '{}' from "
+        "{:.3f} to {:.3f} s; are these its labels?",
+        SecondsOf(times.front()), SecondsOf(times.back()), (*phones)->name, labels.start_s,
+        labels.end_s));
+  StageReport& report = outcome.reports.back();
+  report.figures.emplace_back("frames_labelled", static_cast<double>(num_labelled));
+  if (2 * num_labelled < num_frames)
+    report.warnings.push_back(
+        fmt::format("only {} of {} frames have a label: do the labels belong to this take, and do "
+                    "both count time from the same moment?",
+                    num_labelled, num_frames));
   return {};
 }
 

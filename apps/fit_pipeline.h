@@ -56,7 +56,8 @@ Result<FitOutcome> FitBoundTake(const Take& take, const Binding& binding, const 
 Result<FitOutcome> FitTakeByItself(const Take& take, const MarkerSet& set, const FaceRig& rig,
                                    const PipelineOptions& options);
 
-// Writes the phone of every frame into the track; `tier` empty: the one that says phones.
-Result<void> LabelFrames(const TextGrid& labels, const std::string& tier, ParameterTrack& track);
+// Writes the phone of every frame into the track, and into the fit's report how many have one;
+// `tier` empty: the one that says phones. Fails where none has.
+Result<void> LabelFrames(const TextGrid& labels, const std::string& tier, FitOutcome& outcome);
 
 }  // namespace articap

@@ -13,7 +13,7 @@ namespace articap {
 namespace {
 
 struct MapArguments {
-  std::string reference, rig_folder, output;
+  std::string reference, rig_folder, output, config;
   bool mirror = false;
   MarkerReadOptions read;
   ProposeMapOptions map;
@@ -32,7 +32,8 @@ Result<std::vector<StageReport>> RunMap(const MapArguments& arguments) {
 
   OutputSet outputs;
   outputs.Add(arguments.output, WriteMapProposal(*proposal));
-  if (const auto allowed = outputs.RefuseToOverwrite({arguments.reference}); !allowed)
+  if (const auto allowed = outputs.RefuseToOverwrite({arguments.reference, arguments.config});
+      !allowed)
     return tl::unexpected(allowed.error());
   if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
   return std::vector<StageReport>{take->report, proposal->report};
@@ -55,6 +56,7 @@ ExitCode MapCommand(const std::vector<std::string>& arguments) {
   line.Stage("map", values.map);
   line.Stage("read", values.read);
   if (const auto exit = line.Parse(arguments)) return *exit;
+  values.config = line.config_path();
   const auto reports = RunMap(values);
   return reports ? line.Finish(*reports) : FailWith(reports.error());
 }

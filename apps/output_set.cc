@@ -84,6 +84,15 @@ Result<void> OutputSet::Commit() const {
     if (fs::is_directory(paths_[i], error))
       return Fail(fmt::format("{}: is a folder, where a file is to be written; name another output",
                               paths_[i].string()));
+    if (fs::exists(paths_[i], error) && !fs::is_regular_file(paths_[i], error))
+      return Fail(
+          fmt::format("{}: is a device or a pipe, where a file is to be written; name "
+                      "another output",
+                      paths_[i].string()));
+    if (std::find(paths_.begin(), paths_.begin() + static_cast<std::ptrdiff_t>(i), paths_[i]) !=
+        paths_.begin() + static_cast<std::ptrdiff_t>(i))
+      return Fail(fmt::format("{}: two outputs have this name; name one of them otherwise",
+                              paths_[i].string()));
     parts.push_back(paths_[i]);
     parts.back() += fmt::format(".{}.new", ::getpid());
     undo.files.push_back(parts.back());

@@ -46,4 +46,10 @@ Result<fs::path> FindMap(const std::string& name_or_path) {
                   name_or_path, fmt::join(KnownMaps(), ", ")));
 }
 
+std::filesystem::path MapInput(const std::string& name_or_path) {
+  if (name_or_path.empty()) return {};
+  const auto path = FindMap(name_or_path);
+  return path ? *path : std::filesystem::path();
+}
+
 }  // namespace articap

@@ -4,6 +4,7 @@
 #include "apps/marker_input.h"
 #include "apps/output_names.h"
 #include "apps/output_set.h"
+#include "apps/resources.h"
 #include "apps/take.h"
 #include "apps/verbs.h"
 
@@ -11,7 +12,7 @@ namespace articap {
 namespace {
 
 struct StabilizeArguments {
-  std::string input, output, shape, map;
+  std::string input, output, shape, map, config;
   bool mirror = false;
   MarkerReadOptions read;
   StabilizeOptions stabilize;
@@ -46,6 +47,8 @@ Result<std::vector<StageReport>> RunStabilize(const StabilizeArguments& argument
 
   const Stabilized& result = stabilized->output;
   const MarkerRecording local = HeadLocalRecording(result.tracks, take->recording);
+  if (const auto limit = LimitExceeded(local, *format))
+    return Fail(fmt::format("{} has {}; write another format", arguments.input, *limit));
   OutputSet outputs;
   outputs.Add(arguments.output, FormatMarkers(local, *format));
   outputs.Add(Beside(arguments.output, ".pose.csv"), WriteHeadPoseCsv(result.head_pose));
@@ -53,7 +56,9 @@ Result<std::vector<StageReport>> RunStabilize(const StabilizeArguments& argument
     outputs.Add(Beside(arguments.output, ".shape.csv"), WriteHeadShapeCsv(result.head_shape));
   outputs.Add(Beside(arguments.output, ".report.json"),
               ReportsToJson({take->report, stabilized->report}));
-  if (const auto allowed = outputs.RefuseToOverwrite({arguments.input, arguments.shape}); !allowed)
+  if (const auto allowed = outputs.RefuseToOverwrite(
+          {arguments.input, arguments.shape, MapInput(arguments.map), arguments.config});
+      !allowed)
     return tl::unexpected(allowed.error());
   if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
   for (const std::string& loss : LossesOf(local, *format)) take->report.warnings.push_back(loss);
@@ -78,6 +83,7 @@ ExitCode StabilizeCommand(const std::vector<std::string>& arguments) {
   line.Stage("read", values.read);
   line.Stage("stabilize", values.stabilize);
   if (const auto exit = line.Parse(arguments)) return *exit;
+  values.config = line.config_path();
   const auto reports = RunStabilize(values);
   return reports ? line.Finish(*reports) : FailWith(reports.error());
 }

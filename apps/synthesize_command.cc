@@ -68,6 +68,8 @@ ExitCode SynthesizeCommand(const std::vector<std::string>& arguments) {
   OutputSet outputs;
   for (OutputFile& file : FilesOf(*take, disturbed, noise_options))
     outputs.Add(std::filesystem::path(folder) / file.name, std::move(file.bytes));
+  if (const auto allowed = outputs.RefuseToOverwrite({MapInput(map), line.config_path()}); !allowed)
+    return FailWith(allowed.error());
   if (const auto written = outputs.Commit(); !written) return FailWith(written.error());
   StageReport report = DescribeTake(*take, disturbed, folder);
   for (auto& option : EchoOptions(noise_options)) report.options.push_back(std::move(option));

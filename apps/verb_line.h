@@ -57,6 +57,7 @@ class VerbLine {
   std::optional<ExitCode> Parse(std::vector<std::string> arguments);
 
   bool json() const { return json_; }
+  const std::string& config_path() const { return config_path_; }  // empty where none is given
   // Prints the reports as --json asks; kNotUsable where one of them is not usable.
   ExitCode Finish(const std::vector<StageReport>& reports) const;
 

@@ -30,8 +30,9 @@ const char* NameOf(HeadPoseStatus status);
 
 struct HeadPose {
   Rigid3d head_from_stage;  // identity where not known
-  double residual_mm = 0;   // RMS over the reference markers used (seen, and not outliers); NaN
-                            // where not known
+  // RMS over the reference markers used (seen, and not outliers) of their own best alignment,
+  // before the movement of the head is smoothed; NaN where not known.
+  double residual_mm = 0;
   HeadPoseStatus status = HeadPoseStatus::kOk;
 
   bool is_known() const {

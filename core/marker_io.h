@@ -54,7 +54,11 @@ Result<MarkerRecording> ParseMarkers(std::span<const std::byte> bytes,
                                      const std::string& source_name,
                                      const MarkerReadOptions& options = {});
 
-// The bytes of a file of that format; write(read(write(x))) equals write(x) byte for byte.
+// Which limit of the format the recording exceeds, so that it cannot be written at all; or nothing.
+std::optional<std::string> LimitExceeded(const MarkerRecording& recording, MarkerFormat format);
+
+// The bytes of a file of that format, whose limits must hold; write(read(write(x))) equals write(x)
+// byte for byte.
 std::string FormatMarkers(const MarkerRecording& recording, MarkerFormat format);
 
 // What the format cannot carry of this recording, each a sentence; empty where nothing is lost.

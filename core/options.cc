@@ -6,6 +6,18 @@
 
 namespace articap {
 
+Result<void> RequirePositive(NamedNumbers options) {
+  for (const auto& [name, value] : options)
+    if (!(value > 0)) return Fail(fmt::format("{} is {}; it must be positive", name, value));
+  return {};
+}
+
+Result<void> RequireNotNegative(NamedNumbers options) {
+  for (const auto& [name, value] : options)
+    if (!(value >= 0)) return Fail(fmt::format("{} is {}; it must not be negative", name, value));
+  return {};
+}
+
 void OptionEcho::operator()(const char* name, bool& value, const char*) {
   entries.emplace_back(name, value ? "true" : "false");
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "core/result.h"
 
 namespace articap {
 
@@ -49,6 +52,12 @@ class OptionEcho : public OptionVisitor {
 
   std::vector<std::pair<std::string, std::string>> entries;
 };
+
+// Fails with the name and the value of the first that is not positive, or that is negative or not a
+// number.
+using NamedNumbers = std::initializer_list<std::pair<const char*, double>>;
+Result<void> RequirePositive(NamedNumbers options);
+Result<void> RequireNotNegative(NamedNumbers options);
 
 template <class Options>
 std::vector<std::pair<std::string, std::string>> EchoOptions(Options options) {

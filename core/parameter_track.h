@@ -17,7 +17,9 @@ enum class FitStatus : std::uint8_t {
   kNoHeadPose,     // the head could not be stabilised: no parameters
   kTooFewMarkers,  // too few markers seen: no parameters
   kNotConverged,   // the solver ran out of iterations: the best found
-  kWeak,  // some parameters were not determined by the markers seen; they hold the reference
+  // Some parameters were not determined by the markers seen: they hold the reference, or, under a
+  // prior on smooth trajectories, follow their neighbours; their sigma is infinite.
+  kWeak,
 };
 const char* NameOf(FitStatus status);
 
@@ -30,7 +32,9 @@ struct ParameterTrack {
   int first_frame = 1;
   SessionTime start;
   Eigen::MatrixXd values;  // frames x parameters; NaN where there is no fit
-  Eigen::MatrixXd sigmas;  // standard deviations, same shape; infinite where not determined
+  // Standard deviations, same shape; infinite where not determined. Those of the markers' own
+  // noise: neither the head pose's error nor what a prior on smooth trajectories knows is in them.
+  Eigen::MatrixXd sigmas;
   std::vector<double> residuals_mm;  // per frame: mean distance of measured to virtual markers
   std::vector<FitStatus> statuses;
   std::vector<std::string> phones;  // per frame; empty where no labels were given

@@ -51,7 +51,11 @@ std::string Dump(const Json& json) {
 }
 
 std::string FormatNumber(double value) {
-  return std::isfinite(value) ? fmt::format("{:.5g}", value) : "-";
+  if (!std::isfinite(value)) return "-";
+  // Counts, frame numbers and long times are not rounded.
+  if (value == std::round(value) && std::abs(value) < 1e15)
+    return fmt::format("{:.0f}", value + 0.0);
+  return fmt::format(fmt::runtime(std::abs(value) < 1e4 ? "{:.5g}" : "{:.3f}"), value);
 }
 
 std::string FormatTable(const ReportTable& table, int max_rows) {

@@ -29,7 +29,7 @@ constexpr double kDistinctRatio = 0.6;
 // Lips count as open this much above the closed lips of the take, mm of the speaker.
 constexpr double kOpenLips_mm = 3;
 
-// Mean speed of a frame at rest moves the average's standard deviation to less than this, mm.
+// At rest, no marker's position in the reference frames has a larger standard deviation, mm.
 constexpr double kRestless_mm = 1.0;
 
 // A marker of the reference pose with its role and, where it has one, its landmark on the rig.
@@ -214,7 +214,7 @@ void WarnOfOpenLips(const HeadTracks& tracks, const MarkerSet& set, const FrameR
     report->warnings.push_back(
         fmt::format("the lips are open in the reference pose: {:.1f} mm between the lip markers, "
                     "{:.1f} mm where the take closes them; choose frames with closed lips and "
-                    "relaxed jaw (--frames)",
+                    "relaxed jaw (--frames; --reference in fit)",
                     sum / count, *closed));
 }
 
@@ -291,6 +291,15 @@ void NoteAveraging(const AveragedPose& averaged, const FrameRange& frames, Stage
                     fmt::join(averaged.left_out, ", ")));
 }
 
+// The landmarks of strategic markers that the rig does not have.
+std::vector<std::string> LandmarksLacking(const MarkerSet& set, const FaceRig& rig) {
+  std::vector<std::string> lacking;
+  for (const MarkerRole& role : set.markers)
+    if (role.strategic && !role.landmark.empty() && !rig.FindLandmark(role.landmark))
+      lacking.push_back(role.landmark);
+  return lacking;
+}
+
 }  // namespace
 
 void VisitOptions(BindOptions& options, OptionVisitor& visit) {
@@ -349,6 +358,11 @@ Result<StageResult<Binding>> Bind(const HeadTracks& reference, const HeadShape& 
                                   const MarkerSet& set, const FaceRig& rig,
                                   const BindOptions& options) {
   StageReport report{.stage = "bind", .options = EchoOptions(options)};
+  if (const auto good =
+          RequirePositive({{"num_reference_frames", options.num_reference_frames},
+                           {"max_orientation_residual_mm", options.max_orientation_residual_mm}});
+      !good)
+    return tl::unexpected(good.error());
   const auto frames = ChooseFrames(reference, set, options, &report);
   if (!frames) return tl::unexpected(frames.error());
   const AveragedPose averaged = AverageFrames(reference, *frames);
@@ -366,6 +380,12 @@ Result<StageResult<Binding>> Bind(const HeadTracks& reference, const HeadShape& 
   for (Eigen::Index k = 0; k < identity.size(); ++k) identity[k] = (*given_identity)[k].value_or(0);
   FaceRig own_rig = rig.WithIdentity(identity);
   std::vector<PointPair> pairs = StrategicPairs(points, own_rig, *pose);
+  if (const auto lacking = LandmarksLacking(set, rig); pairs.size() < 3 && !lacking.empty())
+    return Fail(
+        fmt::format("the rig '{}' has {} of the landmarks that the map's strategic markers sit at, "
+                    "and at least 3 are needed; it lacks {}. Name them in the rig's recipe "
+                    "('articap rig import --recipe', docs/rigs.md)",
+                    rig.definition().name, pairs.size(), fmt::join(lacking, ", ")));
   if (pairs.size() < 3)
     return Fail(
         fmt::format("the reference pose has {} of the strategic markers that the orientation fit "

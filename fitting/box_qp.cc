@@ -10,8 +10,9 @@
 namespace articap {
 namespace {
 
-// Sets the free variables of x to the minimiser for the others as they are.
-void SolveFree(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
+// Sets the free variables of x to the minimiser for the others as they are; false where the hessian
+// is not definite by rounding, and x of no use.
+bool SolveFree(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
                const std::vector<int>& free, Eigen::VectorXd* x) {
   const int num_free = static_cast<int>(free.size());
   // On the stack for the sizes that occur every frame.
@@ -25,14 +26,15 @@ void SolveFree(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
       for (int k = 0; k <= i; ++k) reduced(i, k) = hessian(free[i], free[k]);
     }
     Eigen::LLT<Eigen::Ref<decltype(reduced)>> factor(reduced);
+    if (factor.info() != Eigen::Success) return false;
     factor.solveInPlace(right);
     for (int i = 0; i < num_free; ++i) (*x)[free[i]] = -right[i];
+    return true;
   };
   if (num_free <= kStackSize)
-    solve(Small(num_free, num_free),
-          Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kStackSize, 1>(num_free));
-  else
-    solve(Eigen::MatrixXd(num_free, num_free), Eigen::VectorXd(num_free));
+    return solve(Small(num_free, num_free),
+                 Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kStackSize, 1>(num_free));
+  return solve(Eigen::MatrixXd(num_free, num_free), Eigen::VectorXd(num_free));
 }
 
 // How far towards `target` the free variables of x can go, and which of them stops it, or -1.
@@ -88,7 +90,7 @@ Eigen::VectorXd SolveBoxQp(const Eigen::MatrixXd& hessian, const Eigen::VectorXd
     for (int i = 0; i < size; ++i)
       if (is_free[i]) free.push_back(i);
     Eigen::VectorXd target = x;
-    if (!free.empty()) SolveFree(hessian, gradient, free, &target);
+    if (!free.empty() && !SolveFree(hessian, gradient, free, &target)) break;
 
     const auto [part, blocking] = StepToBoundary(x, target, lower, upper, free);
     if (blocking >= 0) {

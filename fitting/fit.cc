@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 
 #include "fitting/bind.h"
 #include "fitting/determination.h"
@@ -30,6 +32,12 @@ constexpr double kMedianLength = 1.5382;
 // mean (Brown 1983).
 const double kDistanceInefficiency = std::sqrt(3 * M_PI / 8);
 
+// Of the movement, %; on real faces bound well the rig explains nine tenths.
+constexpr double kLittleExplained = 75;
+
+// Residuals this many times larger than the assumed noise deserve a word.
+constexpr double kNoisierThanAssumed = 3;
+
 // How far refinement may move a marker on the rig, mm of the rig: one face's error of attachment to
 // another.
 constexpr double kRefinementReach_mm = 20;
@@ -39,6 +47,19 @@ struct FaceMarkers {
   std::vector<VirtualMarker> markers;
   std::vector<int> columns;  // of the take's tracks
 };
+
+Result<void> CheckOptions(const FitOptions& options) {
+  if (auto good = RequirePositive({{"epsilon_mm", options.epsilon_mm},
+                                   {"huber_mm", options.huber_mm},
+                                   {"marker_sigma_mm", options.marker_sigma_mm},
+                                   {"max_sigma_of_range", options.max_sigma_of_range}});
+      !good)
+    return good;
+  return RequireNotNegative({{"smoothing_s", options.smoothing_s},
+                             {"max_acceleration_m_s2", options.max_acceleration_m_s2},
+                             {"refine_frames", options.refine_frames},
+                             {"threads", options.threads}});
+}
 
 // The binding's virtual markers that the take has.
 FaceMarkers MatchMarkers(const HeadTracks& tracks, const Binding& binding, StageReport* report) {
@@ -71,6 +92,18 @@ RigTracks MeasuredInRig(const HeadTracks& tracks, const FaceMarkers& face,
         chosen.Set(frame, static_cast<int>(i), tracks.position_mm(frame, column),
                    tracks.state(frame, column), tracks.sigma_mm(frame, column));
   return AlignToRig(chosen, rig_from_head);
+}
+
+void CountFilled(const RigTracks& tracks, StageReport* report) {
+  int filled = 0;
+  for (int frame = 0; frame < tracks.num_frames(); ++frame)
+    for (const SampleState state : tracks.states(frame)) filled += state == SampleState::kFilled;
+  if (filled == 0) return;
+  report->figures.emplace_back("filled_samples", filled);
+  report->warnings.push_back(
+      fmt::format("{} samples were not seen but filled in by whoever made the file, and are fitted "
+                  "like the others: what is fitted to them alone is that filling",
+                  filled));
 }
 
 // The tracks without their spikes, which the report counts and names.
@@ -155,6 +188,26 @@ Eigen::VectorXd SmoothingWeights(const FitOptions& options, const Eigen::VectorX
   return cost * typical.array().square().inverse();
 }
 
+void NoteSmoothing(const FitOptions& options, const Smoothing& smoothing, StageReport* report) {
+  if (options.smoothing_s == 0) return;
+  report->figures.emplace_back("smoothing_steps", smoothing.steps);
+  if (!smoothing.converged)
+    report->warnings.push_back(fmt::format(
+        "smoothing stopped after {} steps, short of the minimum; a shorter --smoothing-s "
+        "is easier, and gaps of many markers make it harder",
+        smoothing.steps));
+}
+
+// Some frames of a take, one after the other.
+RigTracks ChosenFrames(const RigTracks& tracks, const std::vector<int>& frames) {
+  RigTracks chosen(tracks.names(), static_cast<int>(frames.size()), tracks.rate_hz());
+  for (int i = 0; i < chosen.num_frames(); ++i)
+    for (int marker = 0; marker < tracks.num_markers(); ++marker)
+      if (!tracks.is_missing(frames[i], marker))
+        chosen.Set(i, marker, tracks.position_mm(frames[i], marker));
+  return chosen;
+}
+
 // The markers of one take, fitted as often as their places on the rig change.
 class TakeFitter {
  public:
@@ -172,7 +225,7 @@ class TakeFitter {
     FrameFits fits;
     std::vector<bool> determined;
     Eigen::VectorXd sigmas;  // of each parameter were all of them free
-    int smoothing_steps = 0;
+    Smoothing smoothing;
   };
 
   // Frame by frame, then with the smoothness prior where `smooth` and the options ask for it.
@@ -191,7 +244,7 @@ class TakeFitter {
                               LossOf(),   options_.solver, options_.threads};
     pass.fits = FitFrames(measured_, setup, progress);
     if (smooth && options_.smoothing_s > 0) {
-      pass.smoothing_steps =
+      pass.smoothing =
           SmoothFits(measured_, setup,
                      SmoothingWeights(options_, box_.ranges, measured_.rate_hz(), marker_sigma_mm_),
                      &pass.fits);
@@ -201,8 +254,9 @@ class TakeFitter {
   }
 
   // Poses and places in turn, from the markers as they were bound.
-  std::vector<VirtualMarker> Refine(const std::vector<VirtualMarker>& bound,
-                                    const std::vector<int>& frames) const {
+  std::vector<VirtualMarker> Refine(const std::vector<VirtualMarker>& bound) const {
+    std::vector<int> frames(measured_.num_frames());
+    std::iota(frames.begin(), frames.end(), 0);
     std::vector<VirtualMarker> markers = bound;
     for (int round = 0; round < kRefinementRounds; ++round) {
       const Pass pass = Run(markers, false, nullptr);
@@ -250,17 +304,50 @@ Eigen::MatrixXf Residuals(const RigTracks& measured, const RigTracks& virtual_ma
 }
 
 // Standard deviation of a marker's coordinate, mm of the speaker, from the median residual and the
-// degrees of freedom that the parameters took.
-double MarkerSigma_mm(const Eigen::MatrixXf& residuals_mm, int num_free) {
+// freedom that the parameters leave to the residuals; nothing where they leave next to none.
+std::optional<double> MarkerSigma_mm(const Eigen::MatrixXf& residuals_mm,
+                                     const Eigen::MatrixXd& unit_sigmas) {
+  constexpr double kLeastFreedom = 0.05;  // of all numbers
   std::vector<float> lengths;
-  for (Eigen::Index i = 0; i < residuals_mm.size(); ++i)
-    if (std::isfinite(residuals_mm.data()[i])) lengths.push_back(residuals_mm.data()[i]);
-  if (lengths.empty()) return kNaN;
+  double numbers = 0, freedom = 0;
+  for (Eigen::Index frame = 0; frame < residuals_mm.rows(); ++frame) {
+    int seen = 0;
+    for (const float residual : residuals_mm.row(frame))
+      if (std::isfinite(residual)) {
+        lengths.push_back(residual);
+        ++seen;
+      }
+    const auto free = unit_sigmas.row(frame).array().isFinite().count();
+    numbers += 3 * seen;
+    freedom += std::max(0.0, static_cast<double>(3 * seen - free));
+  }
+  if (lengths.empty() || freedom < kLeastFreedom * numbers) return std::nullopt;
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
-  const double numbers = 3 * static_cast<double>(residuals_mm.cols());
-  const double freedom = std::max(1.0, numbers - num_free);
   return *middle / kMedianLength * std::sqrt(numbers / freedom);
+}
+
+// The noise that the parameters' sigmas are reckoned with: that of the residuals, where they tell.
+double EstimateSigma(const ShapeFit& fit, const FrameFits& fits, const FitOptions& options,
+                     StageReport* report) {
+  const auto estimate = MarkerSigma_mm(fit.residuals_mm, fits.unit_sigmas);
+  if (!estimate) {
+    report->warnings.push_back(fmt::format(
+        "the markers meet the rig exactly, whatever they measure: they are too few to tell their "
+        "own noise; the sigmas assume {:.2g} mm a coordinate (--marker-sigma-mm)",
+        options.marker_sigma_mm));
+    return options.marker_sigma_mm;
+  }
+  report->figures.emplace_back("residual_sigma_mm", *estimate);
+  if (*estimate > kNoisierThanAssumed * options.marker_sigma_mm)
+    report->warnings.push_back(fmt::format(
+        "the residuals are those of {:.2f} mm a coordinate, and which parameters are determined "
+        "was "
+        "decided with {:.2f} mm: some are less certain than their range allows (see their sigmas). "
+        "The rig does not fit this face everywhere, or the markers are noisy; "
+        "--marker-sigma-mm {:.2f} holds what is uncertain",
+        *estimate, options.marker_sigma_mm, *estimate));
+  return *estimate;
 }
 
 const char* UnitName(ParameterUnit unit) {
@@ -311,16 +398,60 @@ std::vector<bool> MouthOrChin(const FaceRig& rig, const std::vector<VirtualMarke
   return is_mouth_or_chin;
 }
 
-std::string VerdictOf(const ShapeFit& fit, const ExplainedVariance& explained, int num_determined) {
+// The head was lost where nothing at all is left of a frame.
+void MarkFramesWithoutHead(const HeadTracks& tracks, std::vector<FitStatus>* statuses) {
+  for (int frame = 0; frame < tracks.num_frames(); ++frame)
+    if (std::ranges::all_of(tracks.states(frame),
+                            [](SampleState state) { return state == SampleState::kMissing; }))
+      (*statuses)[frame] = FitStatus::kNoHeadPose;
+}
+
+// Whether the parameters may be used, and why not.
+void Judge(const ShapeFit& fit, const ExplainedVariance& explained, int num_determined,
+           StageReport* report) {
+  const int num_frames = fit.parameters.num_frames();
   int fitted = 0;
   for (const double residual : fit.parameters.residuals_mm) fitted += std::isfinite(residual);
-  if (fitted == 0)
-    return "not usable: no frame could be fitted; see the head stabilisation's report";
-  return fmt::format(
-      "{} of {} frames fitted with {} of {} parameters; the rig explains {:.1f} % of the movement "
-      "of mouth and chin",
-      fitted, fit.parameters.num_frames(), num_determined, fit.parameters.num_parameters(),
-      100 * explained.mouth_and_chin);
+  const double percent =
+      100 * (std::isfinite(explained.mouth_and_chin) ? explained.mouth_and_chin : explained.all);
+  report->verdict = fmt::format("{} of {} frames fitted with {} of {} parameters", fitted,
+                                num_frames, num_determined, fit.parameters.num_parameters());
+  report->usable = false;
+  if (num_determined == 0)
+    report->verdict +=
+        ": the markers determine none; bring more, or allow more uncertainty "
+        "(--max-sigma-of-range, --marker-sigma-mm)";
+  else if (2 * fitted < num_frames || fitted == 0)
+    report->verdict +=
+        ": too few to go on with; see which markers are missing, and the head "
+        "stabilisation's report";
+  else if (percent < 0)
+    report->verdict += fmt::format(
+        "; the rig explains {:.1f} % of the movement: a face that stood still would come nearer. "
+        "The "
+        "reference pose (--reference) is no face at rest, or markers are misnamed",
+        percent);
+  else
+    report->usable = true;
+  if (!report->usable) {
+    report->verdict = "not usable: " + report->verdict;
+    return;
+  }
+  if (!std::isfinite(percent)) {
+    report->verdict +=
+        "; how much of the movement the rig explains was not judged: every frame "
+        "served the binding or the refinement, or no marker has freedom left";
+    return;
+  }
+  report->verdict +=
+      fmt::format("; the rig explains {:.1f} % of the movement{}", percent,
+                  std::isfinite(explained.mouth_and_chin) ? " of mouth and chin" : "");
+  if (percent < kLittleExplained)
+    report->warnings.push_back(fmt::format(
+        "the rig explains only {:.0f} % of the movement: refine where the markers sit "
+        "(--refine-frames 300), choose another reference pose (--reference), or see by the "
+        "residuals which markers do not fit",
+        percent));
 }
 
 }  // namespace
@@ -352,6 +483,7 @@ Result<StageResult<ShapeFit>> Fit(const HeadTracks& tracks, const Binding& bindi
                                   const BindingFrames& binding_frames,
                                   const std::function<void(double part)>& progress) {
   StageReport report{.stage = "fit", .options = EchoOptions(options)};
+  if (const auto good = CheckOptions(options); !good) return tl::unexpected(good.error());
   const auto own_rig = RigOfBinding(binding, rig);
   if (!own_rig) return tl::unexpected(own_rig.error());
   const auto reference = ReferenceParameters(binding, rig);
@@ -370,20 +502,23 @@ Result<StageResult<ShapeFit>> Fit(const HeadTracks& tracks, const Binding& bindi
   const double scale = binding.rig_from_head.scale;
   const RigTracks measured =
       WithoutSpikes(MeasuredInRig(tracks, face, binding.rig_from_head), options, scale, &report);
+  CountFilled(measured, &report);
   std::vector<bool> judged(measured.num_frames());
   for (int frame = 0; frame < measured.num_frames(); ++frame)
     judged[frame] = !binding_frames.Contains(measured.first_frame() + frame);
 
-  const TakeFitter fitter(*own_rig, *reference, measured, scale, options);
   if (options.refine_frames > 0) {
     const std::vector<int> chosen = SpreadFrames(measured.num_frames(), options.refine_frames);
     for (const int frame : chosen) judged[frame] = false;
-    face.markers = fitter.Refine(face.markers, chosen);
+    const RigTracks frames = ChosenFrames(measured, chosen);
+    face.markers = TakeFitter(*own_rig, *reference, frames, scale, options).Refine(face.markers);
     report.figures.emplace_back("refined_from_frames", static_cast<double>(chosen.size()));
   }
-  const TakeFitter::Pass pass = fitter.Run(face.markers, true, progress);
+  TakeFitter::Pass pass =
+      TakeFitter(*own_rig, *reference, measured, scale, options).Run(face.markers, true, progress);
+  MarkFramesWithoutHead(tracks, &pass.fits.statuses);
   NoteUndetermined(*own_rig, pass.sigmas, pass.determined, options, &report);
-  if (options.smoothing_s > 0) report.figures.emplace_back("smoothing_steps", pass.smoothing_steps);
+  NoteSmoothing(options, pass.smoothing, &report);
 
   const int num_determined =
       static_cast<int>(std::count(pass.determined.begin(), pass.determined.end(), true));
@@ -392,18 +527,16 @@ Result<StageResult<ShapeFit>> Fit(const HeadTracks& tracks, const Binding& bindi
                .virtual_markers = VirtualMarkerTracks(measured, pass.fits),
                .residuals_mm = {}};
   fit.residuals_mm = Residuals(measured, fit.virtual_markers, scale);
-  const double sigma_mm = MarkerSigma_mm(fit.residuals_mm, num_determined);
+  const double sigma_mm = EstimateSigma(fit, pass.fits, options, &report);
   const double inefficiency = options.metric == FitMetric::kDistance ? kDistanceInefficiency : 1;
   fit.parameters =
       TrackOf(*own_rig, measured, pass.fits, fit.residuals_mm, inefficiency * scale * sigma_mm);
-  report.figures.emplace_back("marker_sigma_mm", sigma_mm);
   report.figures.emplace_back("evaluations_per_frame", static_cast<double>(pass.fits.evaluations) /
                                                            std::max(1, measured.num_frames()));
   const ExplainedVariance explained =
       ExplainVariance(fit, judged, MouthOrChin(*own_rig, face.markers));
   DescribeFit(fit, *own_rig, pass.determined, explained, &report);
-  report.verdict = VerdictOf(fit, explained, num_determined);
-  report.usable = report.verdict.rfind("not usable", 0) != 0;
+  Judge(fit, explained, num_determined, &report);
   return StageResult<ShapeFit>{std::move(fit), std::move(report)};
 }
 

@@ -32,9 +32,7 @@ class RunFitter {
     LookAt(frame);
     const bool any_free = std::find(free_.begin(), free_.end(), true) != free_.end();
     if (num_seen_ == 0 || !any_free) {
-      fits->statuses[frame] = num_seen_ == 0 && measured_.num_markers() > 0
-                                  ? FitStatus::kNoHeadPose
-                                  : FitStatus::kTooFewMarkers;
+      fits->statuses[frame] = FitStatus::kTooFewMarkers;
       return;
     }
     Eigen::VectorXd lower = setup_.lower, upper = setup_.upper;
@@ -44,15 +42,13 @@ class RunFitter {
     const ShapeSolution solution = Solve(frame, lower, upper);
     *evaluations += solution.evaluations;
     fits->parameters.row(frame) = start_;
-    fits->objectives[frame] = solution.objective;
     fits->statuses[frame] = !solution.converged          ? FitStatus::kNotConverged
                             : free_ != setup_.determined ? FitStatus::kWeak
                                                          : FitStatus::kOk;
   }
 
   void EvaluateFrame(int frame, FrameFits* fits) {
-    const bool has_fit = fits->parameters(frame, 0) == fits->parameters(frame, 0);
-    if (!has_fit) return;
+    if (fits->statuses[frame] == FitStatus::kTooFewMarkers) return;
     LookAt(frame);
     const Eigen::VectorXd parameters = fits->parameters.row(frame);
     const auto size = static_cast<std::size_t>(parameters.size());
@@ -132,7 +128,6 @@ FrameFits FitFrames(const RigTracks& measured, const FrameFitSetup& setup,
                                                std::numeric_limits<double>::infinity());
   fits.positions_mm = Eigen::MatrixXd::Constant(num_frames, 3 * measured.num_markers(), kNaN);
   fits.statuses.assign(num_frames, FitStatus::kOk);
-  fits.objectives.assign(num_frames, kNaN);
 
   std::atomic<std::int64_t> evaluations = 0;
   std::atomic<int> done = 0;

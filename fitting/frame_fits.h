@@ -28,11 +28,10 @@ struct FrameFitSetup {
 
 // The outcome, frame by frame; rows are frames.
 struct FrameFits {
-  Eigen::MatrixXd parameters;    // NaN where there is no fit
-  Eigen::MatrixXd unit_sigmas;   // sigma per mm of marker sigma; infinite where held
-  Eigen::MatrixXd positions_mm;  // 3 x markers numbers a frame: q(y), mm of the rig
-  std::vector<FitStatus> statuses;
-  std::vector<double> objectives;
+  Eigen::MatrixXd parameters;       // NaN where there is no fit
+  Eigen::MatrixXd unit_sigmas;      // sigma per mm of marker sigma; infinite where held
+  Eigen::MatrixXd positions_mm;     // 3 x markers numbers a frame: q(y), mm of the rig
+  std::vector<FitStatus> statuses;  // never kNoHeadPose, which markers alone do not tell
   std::int64_t evaluations = 0;
 };
 

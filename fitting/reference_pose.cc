@@ -197,7 +197,7 @@ Result<FrameRange> ProposeReferenceFrames(const HeadTracks& tracks, const Marker
     return Fail(
         "no reference frames can be proposed: the marker map names no markers at the landmarks "
         "upper_lip_center and lower_lip_center, nor chin and nose_bridge; give the frames with "
-        "closed lips and relaxed jaw yourself (--frames A:B, or --reference)");
+        "closed lips and relaxed jaw yourself (--frames A:B; --reference A:B in fit)");
 
   const std::vector<bool> closed = ClosedFrames({lips, jaw});
   const std::vector<double> usual = OverSpread(DistancesFromUsual(tracks, set, closed));

@@ -26,7 +26,7 @@ Result<FrameRange> ProposeReferenceFrames(const HeadTracks& tracks, const Marker
                                           int num_frames);
 
 // Every marker's mean position over the frames in which it was seen, mm, head frame. Markers seen
-// in less than half of the frames are left out and named in *left_out.
+// in less than half of the frames are left out and named.
 struct AveragedPose {
   HeadShape pose;
   std::vector<std::string> left_out;

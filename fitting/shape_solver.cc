@@ -13,8 +13,12 @@ namespace {
 
 constexpr double kAbsoluteTolerance_mm = 1e-12;
 
-// Parameters that no marker sees have no curvature; this keeps the model definite and leaves them.
-constexpr double kRidge = 1e-12;
+// Parameters that no marker sees have no curvature; this part of the largest keeps the model
+// definite and leaves them.
+constexpr double kRidge = 1e-13;
+
+// Convergence is foreseen no faster than by this factor a step.
+constexpr double kFastestConvergence = 0.01;
 
 constexpr int kMaxInnerSteps = 100;
 
@@ -29,6 +33,13 @@ constexpr double kSufficientPart = 0.1;
 double NextShare(double share, double kept) {
   if (kept < 0.25) return share > 0.3 ? 0.5 * share : 0;
   return kept > 0.75 ? 1 - 0.3 * (1 - share) : share;
+}
+
+// What the move after the next can still promise: promises fall by a constant factor in the end, of
+// which the root of the last one is a cautious guess.
+double Foreseen(double promised, double last_promised) {
+  if (!(last_promised > 0)) return promised;
+  return promised * std::max(kFastestConvergence, std::sqrt(promised / last_promised));
 }
 
 }  // namespace
@@ -48,7 +59,7 @@ double ShapeSolver::ToleranceOf(double objective) const {
 // the model promises. With a share of 0 the model majorises the objective, with 1 it is Newton's.
 double ShapeSolver::SolveModel(double curvature_share) {
   model_ = current_.reweighted_hessian + curvature_share * current_.loss_curvature;
-  model_.diagonal().array() += kRidge;
+  model_.diagonal().array() += kRidge * (1 + model_.diagonal().maxCoeff());
   step_ = SolveBoxQp(model_, current_.gradient, box_lower_ - move_, box_upper_ - move_);
   return -current_.gradient.dot(step_) - 0.5 * step_.dot(model_ * step_);
 }
@@ -78,38 +89,37 @@ double ShapeSolver::MinimizeLinearized(double curvature_share) {
 
 ShapeSolution ShapeSolver::Solve(MarkerPositions measured_in_rig, Eigen::VectorXd* parameters) {
   ShapeSolution solution;
-  *parameters = parameters->cwiseMax(lower_).cwiseMin(upper_);
-  Eigen::VectorXd start = *parameters;
-  double start_objective = std::numeric_limits<double>::infinity();
-  double promised = 0, last_promised = 0;
+  Eigen::VectorXd y = parameters->cwiseMax(lower_).cwiseMin(upper_);
+  *parameters = y;
+  solution.objective = std::numeric_limits<double>::infinity();
+  double promised = 0, last_promised = 0;  // of the move to y, and of a full move before it
   while (solution.evaluations < options_.max_evaluations) {
-    frame_.Linearize(measured_in_rig, *parameters);
+    frame_.Linearize(measured_in_rig, y);
     ++solution.evaluations;
-    candidate_move_.setZero(parameters->size());
+    candidate_move_.setZero(y.size());
     frame_.Build(candidate_move_, &current_);
-    if (current_.objective > start_objective - kSufficientPart * promised) {
-      move_ *= 0.5;
+    if (!(current_.objective <= solution.objective - kSufficientPart * promised)) {
       promised *= 0.5;
-      solution.converged = promised <= ToleranceOf(start_objective);
-      *parameters = start + (solution.converged ? 0 : 1) * move_;
-      if (solution.converged) break;
+      last_promised = 0;
+      solution.converged = promised <= ToleranceOf(solution.objective);
+      if (solution.converged) return solution;
+      move_ *= 0.5;
+      y = *parameters + move_;
       continue;
     }
-    start = *parameters;
-    start_objective = current_.objective;
+    *parameters = y;
+    solution.objective = current_.objective;
     move_.swap(candidate_move_);
-    box_lower_ = lower_ - start;
-    box_upper_ = upper_ - start;
+    box_lower_ = lower_ - y;
+    box_upper_ = upper_ - y;
     last_promised = promised;
     promised = MinimizeLinearized(solution.evaluations == 1 ? 0 : 1);
-    *parameters = (start + move_).cwiseMax(lower_).cwiseMin(upper_);
-    solution.objective = current_.objective;
-    // The promises fall by about a constant factor, which the root of the last one overestimates.
-    const double foreseen =
-        last_promised > 0 ? promised * std::sqrt(promised / last_promised) : promised;
-    if (foreseen <= ToleranceOf(start_objective)) {
+    y = (y + move_).cwiseMax(lower_).cwiseMin(upper_);
+    if (Foreseen(promised, last_promised) <= ToleranceOf(solution.objective)) {
+      *parameters = y;
+      solution.objective -= promised;
       solution.converged = true;
-      break;
+      return solution;
     }
   }
   return solution;

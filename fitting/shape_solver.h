@@ -10,14 +10,15 @@ namespace articap {
 struct ShapeSolverOptions {
   MarkerLoss loss;
   int max_evaluations = 60;
-  // Converged when a step promises less than this part of the objective, or less than 1e-12 mm.
+  // Converged when the next step is foreseen to promise less than this part of the objective, or
+  // less than 1e-12 mm.
   double relative_tolerance = 1e-8;
 };
 
 // What happened to one frame.
 struct ShapeSolution {
-  double objective = 0;
-  int evaluations = 0;  // of all positions, most of them with their Jacobian
+  double objective = 0;  // as of the last linearisation: within the tolerance
+  int evaluations = 0;   // of all positions, most of them with their Jacobian
   bool converged = false;
 };
 
@@ -26,7 +27,7 @@ struct ShapeSolution {
 // loss of the linearised residuals, which is convex, is minimised over the box, and y moves there.
 // The markers are nearly linear over the step from one frame to the next, so that the kinks of the
 // sum of distances are dealt with in the cheap inner problem and a few evaluations do. Made for
-// thousands of frames with a few dozen markers; CeresShapeSolver is its reference.
+// thousands of frames with a few dozen markers; SolveShapeWithCeres is its reference.
 class ShapeSolver {
  public:
   // The evaluator must outlive the solver. A parameter with lower == upper is held there.
@@ -38,7 +39,8 @@ class ShapeSolver {
     upper_ = upper;
   }
 
-  // From *parameters, which is first brought into the box, to the minimum.
+  // From *parameters, which is first brought into the box, to the minimum, or to the best point
+  // that was found.
   ShapeSolution Solve(MarkerPositions measured_in_rig, Eigen::VectorXd* parameters);
 
  private:

@@ -15,8 +15,9 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr int kMaxSteps = 100;
-constexpr double kRelativeTolerance = 1e-9;
+constexpr int kMaxSteps = 200;
+constexpr double kMostDamping = 1e6;
+constexpr double kRelativeTolerance = 1e-8;
 constexpr int kRunLength = 512;
 
 // Second differences of frames that follow one another and all have a fit.
@@ -63,8 +64,8 @@ class TakeProblem {
     return gradient;
   }
 
-  // The step of the reweighted model, plus the part (1 - damping) of Newton's curvature; `held`
-  // unknowns do not move.
+  // Newton's step with the diagonal raised by the part `damping` (Marquardt 1963); `held` unknowns
+  // do not move. Not finite where the matrix is not definite.
   Eigen::MatrixXd Step(const Eigen::MatrixXd& gradient, double damping,
                        const std::vector<bool>& held) const {
     const int size = static_cast<int>(gradient.cols());
@@ -75,7 +76,7 @@ class TakeProblem {
     };
     for (int i = 0; i < num_frames(); ++i) {
       const Eigen::MatrixXd hessian =
-          equations_[i].reweighted_hessian * (1 + damping) + equations_[i].loss_curvature;
+          equations_[i].reweighted_hessian + equations_[i].loss_curvature;
       for (int a = 0; a < size; ++a)
         for (int b = 0; b <= a; ++b) add(i, a, i, b, hessian(a, b));
     }
@@ -95,8 +96,10 @@ class TakeProblem {
       }
     Sparse matrix(unknowns, unknowns);
     matrix.setFromTriplets(entries.begin(), entries.end());
+    matrix.diagonal() *= 1 + damping;
     // Natural order keeps the band.
     Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(matrix);
+    if (factor.info() != Eigen::Success) return gradient * std::nan("");
     const Eigen::VectorXd solution = factor.solve(right);
     return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
         solution.data(), num_frames(), size);
@@ -133,10 +136,10 @@ std::vector<bool> Held(const FrameFitSetup& setup, const Eigen::MatrixXd& y,
 
 }  // namespace
 
-int SmoothFits(const RigTracks& measured, const FrameFitSetup& setup,
-               const Eigen::VectorXd& weights, FrameFits* fits) {
+Smoothing SmoothFits(const RigTracks& measured, const FrameFitSetup& setup,
+                     const Eigen::VectorXd& weights, FrameFits* fits) {
   TakeProblem problem(measured, setup, weights, *fits);
-  if (problem.num_frames() < 3) return 0;
+  if (problem.num_frames() < 3) return {};
   Eigen::MatrixXd y(problem.num_frames(), setup.evaluator.num_parameters());
   for (int i = 0; i < problem.num_frames(); ++i) y.row(i) = fits->parameters.row(problem.frame(i));
 
@@ -147,14 +150,15 @@ int SmoothFits(const RigTracks& measured, const FrameFitSetup& setup,
   };
   double objective = problem.Linearize(y);
   double damping = 0.1;
-  int steps = 0;
-  for (; steps < kMaxSteps && damping < 1e6; ++steps) {
+  Smoothing smoothing{0, false};
+  for (; smoothing.steps < kMaxSteps && damping < kMostDamping && !smoothing.converged;
+       ++smoothing.steps) {
     const Eigen::MatrixXd gradient = problem.Gradient(y);
     const Eigen::MatrixXd candidate =
         into_box(y + problem.Step(gradient, damping, Held(setup, y, gradient)));
     const double candidate_objective = problem.Linearize(candidate);
     const double decrease = objective - candidate_objective;
-    if (decrease < 0) {
+    if (!(decrease >= 0)) {
       damping *= 10;
       problem.Linearize(y);
       continue;
@@ -162,10 +166,10 @@ int SmoothFits(const RigTracks& measured, const FrameFitSetup& setup,
     y = candidate;
     objective = candidate_objective;
     damping = std::max(1e-6, 0.2 * damping);
-    if (decrease <= kRelativeTolerance * objective) break;
+    smoothing.converged = decrease <= kRelativeTolerance * objective;
   }
   for (int i = 0; i < problem.num_frames(); ++i) fits->parameters.row(problem.frame(i)) = y.row(i);
-  return steps;
+  return smoothing;
 }
 
 }  // namespace articap

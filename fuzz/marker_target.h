@@ -31,6 +31,7 @@ inline void CheckMarkerBytes(std::span<const std::byte> bytes, const char* sourc
   if (recording->tracks.num_markers() > 2000) return;
   for (const MarkerFormat format : formats) {
     LossesOf(*recording, format);
+    if (LimitExceeded(*recording, format)) continue;
     const std::string once = FormatMarkers(*recording, format);
     const auto read = ParseMarkers(std::as_bytes(std::span(once)), "written");
     if (!read) {

@@ -31,6 +31,19 @@ Eigen::Vector3d UnitDisplacement(const WeightedTransform& transform, double weig
   return weight * transform.vector.cwiseProduct(arm);
 }
 
+// A parameter of the jaw joint that transforms or morph targets use as well, which one evaluator
+// and one skinned joint could not carry.
+std::optional<std::string> ParameterOfJawAndSkin(const RigDefinition& rig) {
+  for (const int parameter :
+       {rig.jaw->rotation_parameter, rig.jaw->thrust_parameter, rig.jaw->shift_parameter}) {
+    const auto is_it = [&](const auto& user) { return user.parameter == parameter; };
+    if (std::any_of(rig.transforms.begin(), rig.transforms.end(), is_it) ||
+        std::any_of(rig.morph_targets.begin(), rig.morph_targets.end(), is_it))
+      return rig.parameters[parameter].name;
+  }
+  return std::nullopt;
+}
+
 // Why a definition cannot be a rig; nothing where it can.
 std::optional<std::string> FindFault(const RigDefinition& rig) {
   const std::size_t num_vertices = rig.mesh.vertices.size();
@@ -94,6 +107,8 @@ std::optional<std::string> FindFault(const RigDefinition& rig) {
          {rig.jaw->rotation_parameter, rig.jaw->thrust_parameter, rig.jaw->shift_parameter})
       if (parameter != -1 && !IsIndex(parameter, rig.parameters.size()))
         return "the jaw names a parameter that does not exist";
+    if (const auto name = ParameterOfJawAndSkin(rig))
+      return fmt::format("the parameter '{}' is the jaw's and displaces vertices besides", *name);
   }
   return std::nullopt;
 }

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <string_view>
 
@@ -38,9 +40,10 @@ std::string ListNames(const Items& items) {
   return names;
 }
 
-// Factor from the unit typed to the parameter's own; nothing where they do not go together.
+// Factor from the unit typed to the parameter's own; nothing where they do not go together. A
+// rotation names its unit: degrees are what people see, and rad what is inside.
 std::optional<double> UnitFactor(const std::string& typed, ParameterUnit unit) {
-  if (typed.empty()) return 1;
+  if (typed.empty() && unit != ParameterUnit::kRadian) return 1;
   if (unit == ParameterUnit::kRadian && typed == "deg") return std::numbers::pi / 180;
   if (unit == ParameterUnit::kRadian && typed == "rad") return 1;
   if (unit == ParameterUnit::kMillimetre && typed == "mm") return 1;
@@ -51,7 +54,8 @@ std::optional<double> UnitFactor(const std::string& typed, ParameterUnit unit) {
 
 Result<Eigen::VectorXd> ParsePose(const FaceRig& rig, const std::vector<std::string>& assignments) {
   const auto& parameters = rig.definition().parameters;
-  Eigen::VectorXd pose = Eigen::VectorXd::Zero(rig.num_parameters());
+  Eigen::VectorXd pose =
+      Eigen::VectorXd::Constant(rig.num_parameters(), std::numeric_limits<double>::quiet_NaN());
   for (const std::string& text : assignments) {
     const auto assignment = ParseAssignment(text);
     if (!assignment) return Fail(assignment.error().message);
@@ -62,17 +66,21 @@ Result<Eigen::VectorXd> ParsePose(const FaceRig& rig, const std::vector<std::str
     const RigParameter& parameter = parameters[*index];
     const auto factor = UnitFactor(assignment->unit, parameter.unit);
     if (!factor)
-      return Fail(
-          fmt::format("'{}': the unit '{}' does not fit the parameter; rotations take deg or "
-                      "rad, translations mm",
-                      text, assignment->unit));
+      return Fail(fmt::format(
+          "'{}': {}; rotations take deg or rad, translations mm, such as "
+          "jaw_rotation=10deg",
+          text,
+          assignment->unit.empty()
+              ? "a rotation without a unit"
+              : fmt::format("the unit '{}' does not fit the parameter", assignment->unit)));
+    if (!std::isnan(pose[*index]))
+      return Fail(fmt::format("'{}': {} is set twice", text, assignment->name));
     pose[*index] = *factor * assignment->value;
     if (!(pose[*index] >= parameter.min && pose[*index] <= parameter.max))
       return Fail(fmt::format("'{}' is outside the range of the rig, {:.4g} to {:.4g} {}", text,
-                              parameter.min, parameter.max,
-                              parameter.unit == ParameterUnit::kRadian ? "rad" : ""));
+                              parameter.min / *factor, parameter.max / *factor, assignment->unit));
   }
-  return pose;
+  return pose.unaryExpr([](double value) { return std::isnan(value) ? 0.0 : value; });
 }
 
 Result<std::vector<std::optional<double>>> ParseIdentity(

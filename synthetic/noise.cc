@@ -168,6 +168,7 @@ Result<void> CheckOptions(const SyntheticNoiseOptions& options) {
   for (const auto& [name, value] : parts)
     if (!(value >= 0 && value <= 1))
       return Fail(fmt::format("{} is {}; it must be between 0 and 1", name, value));
+  if (options.gap == 1) return Fail("gap is 1; it must be below 1, or nothing would be seen");
   const std::pair<const char*, double> sizes[] = {{"noise_mm", options.noise_mm},
                                                   {"gap_length_s", options.gap_length_s},
                                                   {"outlier_mm", options.outlier_mm},

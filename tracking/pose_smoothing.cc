@@ -23,10 +23,7 @@ constexpr int kFewestPoses = 30;
 constexpr int kStretchLength = 1024;
 constexpr int kNumStretches = 8;
 
-// Cutoffs that are tried, as parts of the frame rate; the highest leaves the poses as they are.
-constexpr double kLowestCutoff = 0.01;
-constexpr double kHighestCutoff = 0.4;
-constexpr int kNumCutoffs = 16;
+constexpr int kNumCutoffs = 28;  // that cross-validation tries
 
 // The lambda that leaves half the amplitude at a frequency, given as part of the frame rate: there
 // lambda |e^(iw) - 1|^(2 order) = 1.
@@ -55,17 +52,22 @@ Eigen::MatrixXd Smooth(const Series& series, const Sparse& penalty, double lambd
   // The ridge keeps a long stretch without poses definite; its poses are not used.
   matrix.diagonal() += series.weights + Eigen::VectorXd::Constant(series.weights.size(), 1e-9);
   const Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(matrix);
-  return factor.solve(series.weights.asDiagonal() * series.values);
+  ARTICAP_CHECK(factor.info() == Eigen::Success);
+  // About their mean, for the sake of the last digits.
+  const Eigen::RowVectorXd mean = series.weights.transpose() * series.values / series.weights.sum();
+  return factor.solve(series.weights.asDiagonal() * (series.values.rowwise() - mean)).rowwise() +
+         mean;
 }
 
 // How many of `size` numbers a smooth series has the freedom of: the trace of the smoother, from
-// the eigenvalues of D^T D (those of evenly weighted frames).
+// the eigenvalues of D^T D for evenly weighted frames. As many are zero as the order says; the
+// others are near those of a chain with free ends, one place on.
 double FreedomOf(Eigen::Index size, double lambda) {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < size; ++i)
-    sum += 1 / (1 + lambda * std::pow(2 * std::sin(kPi * static_cast<double>(i) /
-                                                   (2 * static_cast<double>(size))),
-                                      2 * kOrder));
+  double sum = kOrder;
+  for (Eigen::Index i = kOrder; i < size; ++i) {
+    const double angle = kPi * static_cast<double>(i - 1) / (2 * static_cast<double>(size));
+    sum += 1 / (1 + lambda * std::pow(2 * std::sin(angle), 2 * kOrder));
+  }
   return sum;
 }
 
@@ -82,12 +84,12 @@ struct Remainder {
   double Criterion() const { return sum_of_squares * count / (freedom * freedom); }
 };
 
-Remainder RemainderOf(const std::vector<Series>& stretches, double lambda) {
+Remainder RemainderOf(const std::vector<Series>& stretches, const Sparse& penalty, double lambda) {
   Remainder remainder;
   for (const Series& stretch : stretches) {
     const Eigen::Index size = stretch.weights.size();
     const double known = static_cast<double>((stretch.weights.array() > 0).count());
-    const Eigen::MatrixXd rest = stretch.values - Smooth(stretch, DifferencePenalty(size), lambda);
+    const Eigen::MatrixXd rest = stretch.values - Smooth(stretch, penalty, lambda);
     remainder.sum_of_squares += stretch.weights.dot(rest.rowwise().squaredNorm());
     remainder.count += known;
     remainder.freedom += known * (1 - FreedomOf(size, lambda) / static_cast<double>(size));
@@ -95,6 +97,7 @@ Remainder RemainderOf(const std::vector<Series>& stretches, double lambda) {
   return remainder;
 }
 
+// All of one length.
 std::vector<Series> StretchesOf(const Series& series) {
   const Eigen::Index size = series.weights.size();
   const Eigen::Index length = std::min<Eigen::Index>(size, kStretchLength);
@@ -117,20 +120,23 @@ struct Outcome {
 Outcome SmoothSeries(double cutoff, Series* series) {
   const std::vector<Series> stretches = StretchesOf(*series);
   if (stretches.empty()) return {};
+  const Sparse penalty = DifferencePenalty(stretches.front().weights.size());
   double best_criterion = std::numeric_limits<double>::infinity();
   Outcome outcome;
   for (int i = 0; i < kNumCutoffs; ++i) {
     const double part = static_cast<double>(i) / (kNumCutoffs - 1);
     const double tried =
-        cutoff > 0 ? cutoff : kLowestCutoff * std::pow(kHighestCutoff / kLowestCutoff, part);
-    const Remainder remainder = RemainderOf(stretches, LambdaOf(tried));
+        cutoff > 0 ? cutoff
+                   : kLowestPoseCutoff * std::pow(kHighestPoseCutoff / kLowestPoseCutoff, part);
+    const Remainder remainder = RemainderOf(stretches, penalty, LambdaOf(tried));
     if (remainder.Criterion() < best_criterion) {
       best_criterion = remainder.Criterion();
       outcome = {tried, std::sqrt(remainder.Variance(series->values.cols()))};
     }
     if (cutoff > 0) break;
   }
-  const bool nothing_to_gain = !(cutoff > 0) && *outcome.cutoff >= kHighestCutoff;
+  if (!outcome.cutoff) return {};  // nothing but poses that are not numbers
+  const bool nothing_to_gain = !(cutoff > 0) && *outcome.cutoff >= kHighestPoseCutoff;
   if (nothing_to_gain) return {.cutoff = std::nullopt, .noise = outcome.noise};
   series->values =
       Smooth(*series, DifferencePenalty(series->weights.size()), LambdaOf(*outcome.cutoff));

@@ -9,6 +9,11 @@
 
 namespace articap {
 
+// Cutoffs as parts of the frame rate: below, the smoother is too stiff for double precision; above,
+// it leaves the poses as they are.
+constexpr double kLowestPoseCutoff = 0.005;
+constexpr double kHighestPoseCutoff = 0.4;
+
 // What smoothing did to the poses of a take.
 struct PoseSmoothing {
   // Of movements at these frequencies half of the amplitude remains; absent where there was nothing
@@ -31,8 +36,8 @@ struct PoseSmoothing {
 //
 // Weights: relative precisions, one a frame, 0 where the pose is not known. The pivot, in the head
 // frame, is where position and rotation err independently: the references' centroid. A positive
-// `cutoff_hz` takes the place of cross-validation. Takes with fewer than 30 known poses stay as
-// they are.
+// `cutoff_hz`, within the limits above, takes the place of cross-validation. Takes with fewer than
+// 30 known poses stay as they are.
 PoseSmoothing SmoothPoses(std::span<const double> weights, const Eigen::Vector3d& pivot_in_head_mm,
                           double cutoff_hz, HeadPoseTrack* head_pose);
 

@@ -6,20 +6,27 @@
 
 #include <algorithm>
 
+#include "tracking/pose_smoothing.h"
+
 namespace articap {
 namespace {
 
-Result<void> CheckOptions(const StabilizeOptions& options) {
-  const std::pair<const char*, double> positive[] = {
-      {"max_rotation_sigma_deg", options.max_rotation_sigma_deg},
-      {"max_residual_mm", options.max_residual_mm},
-      {"outlier_sigmas", options.outlier_sigmas},
-      {"shape_tolerance_mm", options.shape_tolerance_mm},
-      {"max_reference_motion_mm", options.max_reference_motion_mm}};
-  for (const auto& [name, value] : positive)
-    if (!(value > 0)) return Fail(fmt::format("{} is {}; it must be positive", name, value));
+Result<void> CheckOptions(const StabilizeOptions& options, double rate_hz) {
+  if (auto good = RequirePositive({{"max_rotation_sigma_deg", options.max_rotation_sigma_deg},
+                                   {"max_residual_mm", options.max_residual_mm},
+                                   {"outlier_sigmas", options.outlier_sigmas},
+                                   {"shape_tolerance_mm", options.shape_tolerance_mm},
+                                   {"max_reference_motion_mm", options.max_reference_motion_mm}});
+      !good)
+    return good;
   if (options.shape_frames < 2)
     return Fail(fmt::format("shape_frames is {}; it must be at least 2", options.shape_frames));
+  const double lowest_hz = kLowestPoseCutoff * rate_hz, highest_hz = kHighestPoseCutoff * rate_hz;
+  if (options.pose_cutoff_hz != 0 &&
+      !(options.pose_cutoff_hz >= lowest_hz && options.pose_cutoff_hz <= highest_hz))
+    return Fail(fmt::format(
+        "pose_cutoff_hz is {}; at {} frames a second it must lie from {:.3g} to {:.3g}, or be 0",
+        options.pose_cutoff_hz, rate_hz, lowest_hz, highest_hz));
   return {};
 }
 
@@ -91,13 +98,15 @@ Result<void> CheckCount(const StageTracks& tracks, const StabilizeSetup& setup) 
   const std::size_t count = setup.references.size();
   if (setup.mode == StabilizationMode::kRigid && count < 3)
     return Fail(fmt::format(
-        "the mode rigid needs three references or more, and has {}; name them with --head, or with "
+        "the mode rigid needs three references or more, and has {}; name them with --head "
+        "(--stabilize-head in bind and fit), or with "
         "the role head in the marker map. The take has {}",
         count, fmt::join(tracks.names(), ", ")));
   if (setup.mode == StabilizationMode::kTranslation && count != 1)
     return Fail(fmt::format(
         "the mode translation takes exactly one reference, e.g. the nose, and has {}; name it with "
-        "--head, or with the role head in the marker map. The take has {}",
+        "--head (--stabilize-head in bind and fit), or with the role head in the marker map. The "
+        "take has {}",
         count, fmt::join(tracks.names(), ", ")));
   return {};
 }
@@ -107,7 +116,8 @@ Result<void> CheckCount(const StageTracks& tracks, const StabilizeSetup& setup) 
 Result<StabilizeSetup> ResolveSetup(const StageTracks& tracks, const MarkerSet& set,
                                     const std::optional<HeadShape>& given_shape,
                                     const StabilizeOptions& options) {
-  if (auto valid = CheckOptions(options); !valid) return tl::unexpected(valid.error());
+  if (auto valid = CheckOptions(options, tracks.rate_hz()); !valid)
+    return tl::unexpected(valid.error());
   const auto axes = ResolveAxes(set, options);
   if (!axes) return tl::unexpected(axes.error());
   if (tracks.num_frames() == 0)

@@ -232,6 +232,14 @@ void WarnOfGroups(const C3dParameters& parameters, std::vector<std::string>& war
     if (!kKept.contains(group)) names += (names.empty() ? "" : ", ") + group;
   if (!names.empty())
     warnings.push_back("Parameter groups that were not kept: " + Printable(names) + ".");
+  const auto right = parameters.Texts("POINT", "X_SCREEN");
+  const auto up = parameters.Texts("POINT", "Y_SCREEN");
+  if (!right.empty() && !up.empty())
+    warnings.push_back(
+        fmt::format("POINT:X_SCREEN ({}) and Y_SCREEN ({}), the axes to the right and up on its "
+                    "maker's screen, "
+                    "were not kept.",
+                    Printable(right[0]), Printable(up[0])));
 }
 
 }  // namespace

@@ -185,8 +185,8 @@ std::string FormatParameters(const MarkerRecording& recording, const StatusWords
   return std::move(writer).Finish();
 }
 
-int AnalogPerFrame(const AnalogData& analog) {
-  return static_cast<int>(analog.channels.size()) * analog.samples_per_frame;
+std::int64_t AnalogPerFrame(const AnalogData& analog) {
+  return static_cast<std::int64_t>(analog.channels.size()) * analog.samples_per_frame;
 }
 
 void WriteHeader(const MarkerRecording& recording, float scale, int data_block, C3dOutput& out) {
@@ -197,7 +197,7 @@ void WriteHeader(const MarkerRecording& recording, float scale, int data_block, 
   out.U8(2);  // the block of the parameters
   out.U8(kC3dKey);
   out.U16(recording.tracks.num_markers());
-  out.U16(AnalogPerFrame(recording.analog));
+  out.U16(static_cast<int>(AnalogPerFrame(recording.analog)));
   out.U16(limit(frames.first));
   out.U16(limit(frames.last()));
   out.U16(0);  // no gap was interpolated by this file's maker
@@ -258,6 +258,22 @@ float C3dResidualStep(const MarkerRecording& recording) {
   float step = kFinest;
   while (step < 1e6F && !reaches(step)) step *= 2;
   return step;
+}
+
+std::optional<std::string> C3dLimitExceeded(const MarkerRecording& recording) {
+  constexpr std::size_t kMostParameterBlocks = 255;
+  if (recording.tracks.num_markers() > kMost16Bit)
+    return fmt::format("{} markers; a C3D file holds at most {}", recording.tracks.num_markers(),
+                       kMost16Bit);
+  if (AnalogPerFrame(recording.analog) > kMost16Bit)
+    return fmt::format("{} analog samples a frame; a C3D file holds at most {}",
+                       AnalogPerFrame(recording.analog), kMost16Bit);
+  const std::size_t num_blocks =
+      FormatParameters(recording, StatusWords(recording), 0).size() / kC3dBlockBytes;
+  if (num_blocks > kMostParameterBlocks)
+    return fmt::format("names, descriptions and events of {} blocks; a C3D file holds at most {}",
+                       num_blocks, kMostParameterBlocks);
+  return std::nullopt;
 }
 
 std::string WriteC3d(const MarkerRecording& recording) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@ namespace articap {
 Result<MarkerRecording> ReadC3d(std::span<const std::byte> bytes, const std::string& source_name,
                                 const MarkerReadOptions& options);
 std::string WriteC3d(const MarkerRecording& recording);
+// Which of the format's 8 and 16 bit counts would overflow, or nothing.
+std::optional<std::string> C3dLimitExceeded(const MarkerRecording& recording);
 // What WriteC3d() rounds residuals to, in mm.
 float C3dResidualStep(const MarkerRecording& recording);
 

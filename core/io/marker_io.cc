@@ -126,10 +126,15 @@ Result<MarkerRecording> ParseMarkers(std::span<const std::byte> bytes,
   return Fail(source_name + ": unknown format");
 }
 
+std::optional<std::string> LimitExceeded(const MarkerRecording& recording, MarkerFormat format) {
+  return format == MarkerFormat::kC3d ? C3dLimitExceeded(recording) : std::nullopt;
+}
+
 std::string FormatMarkers(const MarkerRecording& recording, MarkerFormat format) {
   const StageTracks& tracks = recording.tracks;
   const std::size_t num_samples =
       static_cast<std::size_t>(tracks.num_frames()) * tracks.num_markers();
+  ARTICAP_CHECK(!LimitExceeded(recording, format));
   ARTICAP_CHECK(recording.residuals_mm.empty() || recording.residuals_mm.size() == num_samples);
   ARTICAP_CHECK(recording.camera_masks.empty() || recording.camera_masks.size() == num_samples);
   ARTICAP_CHECK(recording.descriptions.empty() ||

@@ -28,10 +28,16 @@ bool TimesAgree(const TimingClues& clues, const std::vector<double>& steps, doub
   return true;
 }
 
+// Its index, from 1; the size where all increase.
+std::size_t FirstThatDoesNotIncrease(const std::vector<double>& values) {
+  std::size_t i = 1;
+  while (i < values.size() && std::isfinite(values[i - 1]) && values[i] > values[i - 1]) ++i;
+  return i;
+}
+
 bool IsIncreasing(const std::vector<double>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]) || (i > 0 && !(values[i] > values[i - 1]))) return false;
-  return true;
+  return values.empty() ||
+         (FirstThatDoesNotIncrease(values) == values.size() && std::isfinite(values.back()));
 }
 
 double Median(std::vector<double> values) {
@@ -161,6 +167,13 @@ Result<double> ResolveRate(const TimingClues& clues, const MarkerReadOptions& op
     warnings.push_back("A single frame tells no rate; 1 Hz was assumed.");
     return 1;
   }
+  if (clues.times_s.size() >= 2) {
+    const std::size_t row = FirstThatDoesNotIncrease(clues.times_s);
+    return Fail(
+        fmt::format("{}: the times do not increase: {} s in row {} of the data, then {} s; "
+                    "sort the rows and leave out those that come twice",
+                    source_name, clues.times_s[row - 1], row, clues.times_s[row]));
+  }
   return Fail(
       fmt::format("{}: the file holds neither a rate nor times; give the rate with --rate-hz 100",
                   source_name));
@@ -235,11 +248,15 @@ Result<Timing> ResolveTiming(const TimingClues& clues, std::size_t num_rows,
   timing.rate_hz = *rate_hz;
   if (!clues.frame_numbers.empty() && std::abs(clues.frame_numbers[0]) < 1e9)
     timing.first_frame = static_cast<int>(std::lround(clues.frame_numbers[0]));
-  constexpr double kLongestTime_s = 1e9;
+  constexpr double kLongestTime_s = 9e9;  // of 64 bits of nanoseconds; times since 1970 fit
   timing.start = NominalStart(timing.first_frame, timing.rate_hz);
   if (!clues.times_s.empty() && std::abs(clues.times_s[0]) < kLongestTime_s)
     timing.start =
         SnapStart(SessionTimeFromSeconds(clues.times_s[0]), timing.first_frame, timing.rate_hz);
+  else if (!clues.times_s.empty())
+    warnings.push_back(
+        fmt::format("The first time, {} s, is beyond what can be kept; {} s was taken.",
+                    clues.times_s[0], SecondsOf(timing.start)));
   if (const auto placed = PlaceRows(steps, num_markers, source_name, timing, warnings); !placed)
     return tl::unexpected(placed.error());
   return timing;

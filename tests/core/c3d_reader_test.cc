@@ -367,7 +367,8 @@ TEST_P(C3dEncodingTest, GroupsThatAreNotKeptAreNamed) {
 }
 
 TEST_P(C3dEncodingTest, DamagedParametersLeaveTheRestReadable) {
-  builder.SetNumbers("POINT", "DATA_START", 2, {double(builder.DataOffset() / 512 + 1)});
+  builder.SetNumbers("POINT", "DATA_START", 2,
+                     {static_cast<double>(1 + static_cast<int>(builder.DataOffset() / 512))});
   std::string bytes = builder.Build();
   // The type of the second parameter, LABELS, becomes nonsense.
   const std::size_t at = bytes.find("LABELS") + 6 + 2;

@@ -195,6 +195,20 @@ TEST_P(MarkerFormatTest, SpeaksOfEveryLoss) {
   EXPECT_THAT(LossesOf(bare, GetParam()), Contains(HasSubstr("first frame's time changes")));
 }
 
+TEST(C3dWriterTest, RecordingsBeyondTheFormatAreNamed) {
+  MarkerRecording recording;
+  std::vector<std::string> names;
+  for (int i = 0; i < 65536; ++i) names.push_back(std::to_string(i));
+  recording.tracks = StageTracks(names, 1, 100);
+  EXPECT_THAT(LimitExceeded(recording, MarkerFormat::kC3d).value(), HasSubstr("65536 markers"));
+  EXPECT_FALSE(LimitExceeded(recording, MarkerFormat::kPlainCsv));
+  recording.tracks = StageTracks({"a"}, 1, 100);
+  EXPECT_FALSE(LimitExceeded(recording, MarkerFormat::kC3d));
+  for (int i = 0; i < 9000; ++i)
+    recording.events.push_back({.time_s = 0.001 * i, .label = "an event of " + std::to_string(i)});
+  EXPECT_THAT(LimitExceeded(recording, MarkerFormat::kC3d).value(), HasSubstr("events"));
+}
+
 TEST(C3dWriterTest, KeepsEverythingOfARecording) {
   const MarkerRecording recording = SmallRecording();
   const MarkerRecording read = ParseOrThrow(FormatMarkers(recording, MarkerFormat::kC3d));

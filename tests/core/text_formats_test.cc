@@ -376,7 +376,7 @@ TEST(PlainCsvTest, IncompleteMarkersAndOtherTextsAreRefused) {
               HasSubstr("marker nose has no z column"));
   EXPECT_THAT(FailureOf("hello\nworld\n"), HasSubstr("none of the marker formats"));
   EXPECT_THAT(FailureOf("hello\nworld\n", "a.c3d"), HasSubstr("not a C3D file"));
-  EXPECT_THAT(FailureOf("\xff\xfeh\0e\0"), HasSubstr("UTF-16"));
+  EXPECT_THAT(FailureOf(std::string("\xff\xfeh\0e\0", 6)), HasSubstr("UTF-16"));
 }
 
 TEST(PlainCsvTest, RateFollowsFromTimesWithFewDigits) {

@@ -131,6 +131,7 @@ class CramerRao {
 struct Accuracy {
   Eigen::VectorXd squared_errors = Eigen::VectorXd::Zero(DefaultHead().num_parameters());
   Eigen::VectorXd variances = squared_errors;
+  Eigen::VectorXd squared_deviates = squared_errors;  // errors over the sigmas that the fit states
   int num_frames = 0;
   int num_left_out = 0;
 
@@ -145,8 +146,20 @@ struct Accuracy {
         continue;
       }
       variances += frame_variances;
-      squared_errors += (found.values.row(frame) - truth.values.row(frame)).cwiseAbs2().transpose();
+      const Eigen::VectorXd errors = found.values.row(frame) - truth.values.row(frame);
+      squared_errors += errors.cwiseAbs2();
+      squared_deviates += errors.cwiseQuotient(found.sigmas.row(frame).transpose()).cwiseAbs2();
       ++num_frames;
+    }
+  }
+
+  // Errors are as large as the sigmas say, within `tolerance` of the ratio 1.
+  void ExpectHonestSigmas(double tolerance) const {
+    for (int i = 0; i < squared_deviates.size(); ++i) {
+      const std::string& name = DefaultHead().definition().parameters[i].name;
+      const double ratio = std::sqrt(squared_deviates[i] / num_frames);
+      std::printf("  %-28s RMS error over sigma %.3f\n", name.c_str(), ratio);
+      EXPECT_NEAR(ratio, 1, tolerance) << name;
     }
   }
 
@@ -187,17 +200,22 @@ Accuracy OverTakes(SessionOptions options) {
 
 // The spatial median of three-dimensional normal noise, which the sum of distances comes down to,
 // reaches 1.085 of the bound at best (Brown 1983).
-TEST(AccuracyTest, OwnHeadComesNearTheCramerRaoBound) { OverTakes({}).ExpectWithin(1.15); }
+// What exceeds the sigmas by a few per cent is the error of the binding, one draw a take.
+TEST(AccuracyTest, OwnHeadComesNearTheCramerRaoBound) {
+  const Accuracy accuracy = OverTakes({});
+  accuracy.ExpectWithin(1.15);
+  accuracy.ExpectHonestSigmas(0.1);
+}
 
 TEST(AccuracyTest, MarkersBesideTheirLandmarksCostLittle) {
   OverTakes({.misplacement_mm = 0.5}).ExpectWithin(1.25);
 }
 
 // The whole way from the recording. The bound is still that of a known head pose; the noise of the
-// five spectacle markers comes on top, magnified at the chin: most in jaw_thrust (1.76 times the
+// five spectacle markers comes on top, magnified at the chin: most in jaw_thrust (1.82 times the
 // bound; 3.7 times were the poses not smoothed).
 TEST(AccuracyTest, AHeadPoseFoundFromSpectacles) {
-  OverTakes({.find_head = true}).ExpectWithin(1.85);
+  OverTakes({.find_head = true}).ExpectWithin(1.9);
 }
 
 TEST(AccuracyTest, DropoutsAndOutliersCostLittle) {

@@ -38,7 +38,8 @@ TEST(PraxisTest, ShapeFitIsNeverWorse) {
   for (int i = 0; i < kNumFrames; ++i) {
     const auto& measured = scene.measured[i * scene.measured.size() / kNumFrames];
     Eigen::VectorXd ours = Eigen::VectorXd::Zero(num_parameters);
-    const double objective = solver.Solve(measured, &ours).objective;
+    solver.Solve(measured, &ours);
+    const double objective = linearized.Objective(measured, ours);
     std::vector<double> x(num_parameters, 0.0);
     const PraxisResult praxis = MinimizeWithPraxis(
         [&](const std::vector<double>& y) {

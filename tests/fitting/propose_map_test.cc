@@ -103,9 +103,7 @@ TEST(ProposeMapTest, RealMarkersFindTheirPlaces) {
   ARTICAP_NEEDS_TEST_DATA("animface/jaw.trc");
   const auto recording = ReadMarkers(TestDataPath("animface/jaw.trc"), {});
   ASSERT_TRUE(recording) << recording.error().message;
-  ProposeMapOptions options;
-  options.up = "+y";
-  options.forward = "+z";
+  const ProposeMapOptions options{.up = "+y", .forward = "+z"};
   const auto proposal = ProposeMap(WithoutNames(recording->tracks), "jaw", DefaultHead(), options);
   ASSERT_TRUE(proposal) << proposal.error().message;
   EXPECT_TRUE(proposal->report.usable) << proposal->report.BriefReport();
@@ -115,9 +113,7 @@ TEST(ProposeMapTest, RealMarkersFindTheirPlaces) {
 }
 
 TEST(ProposeMapTest, NamesAxesThatContradictOneAnother) {
-  ProposeMapOptions options;
-  options.up = "+z";
-  options.forward = "-z";
+  const ProposeMapOptions options{.up = "+z", .forward = "-z"};
   const auto proposal = ProposeMap(Speaker(1).markers.tracks, "test", DefaultHead(), options);
   ASSERT_FALSE(proposal);
   EXPECT_THAT(proposal.error().message, HasSubstr("right angles"));

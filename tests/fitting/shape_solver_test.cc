@@ -97,6 +97,7 @@ TEST_P(ShapeSolverAgainstCeres, ReachesTheSameObjective) {
   const VirtualMarkerEvaluator evaluator(scene.rig, scene.markers);
   const MarkerLoss loss{GetParam().metric, 0.001, 0.5};
   ShapeSolver solver(evaluator, scene.lower, scene.upper, {.loss = loss});
+  const LinearizedFrame linearized(evaluator, loss);
   std::mt19937 random(21);
   int evaluations = 0;
   constexpr int kNumFrames = 100;
@@ -113,8 +114,10 @@ TEST_P(ShapeSolverAgainstCeres, ReachesTheSameObjective) {
     const ShapeSolution expected =
         SolveShapeWithCeres(evaluator, scene.lower, scene.upper, loss, measured, &reference);
     EXPECT_TRUE(solution.converged) << "frame " << frame;
-    EXPECT_LE(solution.objective, expected.objective * (1 + 1e-6) + 1e-9) << "frame " << frame;
-    EXPECT_GE(solution.objective, expected.objective * (1 - 1e-6) - 1e-9) << "frame " << frame;
+    const double found = linearized.Objective(measured, ours);
+    EXPECT_LE(found, expected.objective * (1 + 1e-6) + 1e-9) << "frame " << frame;
+    EXPECT_GE(found, expected.objective * (1 - 1e-6) - 1e-9) << "frame " << frame;
+    EXPECT_NEAR(solution.objective, found, 1e-7 * found + 1e-9) << "frame " << frame;
     evaluations += solution.evaluations;
   }
   RecordProperty("evaluations_per_frame", std::to_string(1.0 * evaluations / kNumFrames));

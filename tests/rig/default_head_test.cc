@@ -201,7 +201,8 @@ TEST(DefaultHead, OpensAtTheIncisorsAsAJawDoes) {
 }
 
 TEST(DefaultHead, MovesLandmarksByTheParametersUnits) {
-  const auto expect = [](const char* parameter, const char* landmark, Eigen::Vector3d effect) {
+  const auto expect = [](const char* parameter, const char* landmark,
+                         const Eigen::Vector3d& effect) {
     EXPECT_LT((Effect(parameter, landmark) - effect).norm(), 1e-6)
         << parameter << " at " << landmark << ": " << Effect(parameter, landmark).transpose();
   };

@@ -60,7 +60,9 @@ TEST(PoseText, RefusesWhatItCannotUnderstand) {
   EXPECT_THAT(error_of("jaw_rotatoin=10deg"),
               HasSubstr("it has jaw_rotation, lip_rounding, smile"));
   EXPECT_THAT(error_of("jaw_rotation=30deg"), HasSubstr("outside the range"));
-  EXPECT_THAT(error_of("jaw_rotation=10"), HasSubstr("outside the range"));
+  EXPECT_THAT(error_of("jaw_rotation=30deg"), HasSubstr(" deg"));
+  EXPECT_THAT(error_of("jaw_rotation=0.1"), HasSubstr("without a unit"));
+  EXPECT_FALSE(ParsePose(rig, {"smile=0.5", "smile=0.6"}));
   EXPECT_THAT(error_of("smile"), HasSubstr("not of the form name=value"));
   EXPECT_THAT(error_of("smile="), HasSubstr("not a number"));
   EXPECT_THAT(error_of("smile=nan"), HasSubstr("outside the range"));

@@ -11,7 +11,8 @@ constexpr int kRows = 21;     // from the chin up; the mouth lies at row 8
 constexpr int kMouthRow = 8;
 
 Eigen::Vector3d SkinPoint(int column, int row) {
-  const double x = 6.0 * (column - kColumns / 2);
+  constexpr int kMiddleColumn = kColumns / 2;
+  const double x = 6.0 * (column - kMiddleColumn);
   const double y = 6.0 * (row - kMouthRow);
   return {x, y, 80 - 0.006 * x * x - 0.002 * y * y + 1.5 * std::sin(0.11 * x) * std::cos(0.09 * y)};
 }

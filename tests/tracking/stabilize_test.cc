@@ -28,6 +28,13 @@ StageResult<Stabilized> StabilizeOrDie(const StageTracks& tracks, const MarkerSe
   return result ? std::move(*result) : StageResult<Stabilized>{};
 }
 
+// Every pose by its own frame alone, whose bounds are known.
+StabilizeOptions FrameByFrame() {
+  StabilizeOptions options;
+  options.smooth_pose = false;
+  return options;
+}
+
 std::string ErrorOf(const StageTracks& tracks, const MarkerSet& set,
                     const std::optional<HeadShape>& shape = std::nullopt,
                     const StabilizeOptions& options = {}) {
@@ -100,9 +107,7 @@ PoseErrors ErrorsOf(const HeadScene& scene, const Stabilized& stabilized, double
 // of the reference shape, 1/sqrt(1200) of a frame's.
 TEST(StabilizeRigidTest, ErrorsAreWhatTheNoiseAllows) {
   const HeadScene scene = MakeHeadScene({.num_frames = 1200, .noise_mm = 0.2});
-  StabilizeOptions options;
-  options.smooth_pose = false;
-  const auto result = StabilizeOrDie(scene.tracks, scene.set, std::nullopt, options);
+  const auto result = StabilizeOrDie(scene.tracks, scene.set, std::nullopt, FrameByFrame());
   EXPECT_EQ(CountStatus(result.output.head_pose, HeadPoseStatus::kOk), 1200);
   const PoseErrors errors = ErrorsOf(scene, result.output, 0.2);
   EXPECT_LT(errors.rotation_rad, 1.05 * errors.bound_rotation_rad);
@@ -140,7 +145,7 @@ TEST(StabilizeRigidTest, WithoutNoiseThePoseIsExact) {
 TEST(StabilizeRigidTest, DropoutsAndOutliersCostLittle) {
   const HeadScene scene = MakeHeadScene(
       {.num_frames = 3000, .noise_mm = 0.2, .dropout = 0.2, .outliers = 0.02, .seed = 2});
-  auto result = StabilizeOrDie(scene.tracks, scene.set);
+  auto result = StabilizeOrDie(scene.tracks, scene.set, std::nullopt, FrameByFrame());
   EXPECT_GT(CountStatus(result.output.head_pose, HeadPoseStatus::kTooFewReferences), 0);
   for (HeadPose& pose : result.output.head_pose.poses)
     if (pose.status == HeadPoseStatus::kLargeResidual)
@@ -271,7 +276,7 @@ TEST(StabilizeRigidTest, ReferencesExchangedInSomeFramesAreNamed) {
     scene.tracks.Set(frame, a, scene.tracks.position_mm(frame, b));
     scene.tracks.Set(frame, b, point_mm);
   }
-  const auto result = StabilizeOrDie(scene.tracks, scene.set);
+  const auto result = StabilizeOrDie(scene.tracks, scene.set, std::nullopt, FrameByFrame());
   EXPECT_THAT(result.report.warnings,
               Contains(AllOf(HasSubstr("'spectacles_2' and 'spectacles_3' are exchanged in 30"),
                              HasSubstr("frame 201"))));
@@ -293,12 +298,14 @@ TEST(StabilizeRigidTest, StatedSigmasCount) {
                            (is_bad && other == marker ? extra_mm : Eigen::Vector3d::Zero().eval()),
                        SampleState::kMeasured, is_bad && other == marker ? 1.02F : 0.2F);
   }
-  const PoseErrors informed = ErrorsOf(scene, StabilizeOrDie(scene.tracks, scene.set).output, 0.2);
+  const PoseErrors informed = ErrorsOf(
+      scene, StabilizeOrDie(scene.tracks, scene.set, std::nullopt, FrameByFrame()).output, 0.2);
   StageTracks unstated = scene.tracks;
   for (int frame = 0; frame < 1000; ++frame)
     for (int other = 0; other < unstated.num_markers(); ++other)
       unstated.Set(frame, other, unstated.position_mm(frame, other));
-  const PoseErrors uninformed = ErrorsOf(scene, StabilizeOrDie(unstated, scene.set).output, 0.2);
+  const PoseErrors uninformed = ErrorsOf(
+      scene, StabilizeOrDie(unstated, scene.set, std::nullopt, FrameByFrame()).output, 0.2);
   EXPECT_LT(informed.rotation_rad, 0.95 * uninformed.rotation_rad);
 }
 
@@ -399,7 +406,7 @@ TEST(StabilizeWithShapeTest, AReGluedMarkerIsNamedAndLeftOut) {
   HeadScene scene = MakeHeadScene({.num_frames = 1000});
   HeadShape shape = scene.references;
   shape.points[1].point_in_head_mm += Eigen::Vector3d(0, 4, 0);
-  const auto result = StabilizeOrDie(scene.tracks, scene.set, shape);
+  const auto result = StabilizeOrDie(scene.tracks, scene.set, shape, FrameByFrame());
   EXPECT_THAT(result.report.warnings,
               Contains(AllOf(HasSubstr("'spectacles_2' lies"), HasSubstr("left out"))));
   EXPECT_EQ(result.output.head_shape.Find("spectacles_2"), nullptr);
