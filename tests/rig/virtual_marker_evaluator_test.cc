@@ -86,5 +86,17 @@ TEST(VirtualMarkerEvaluatorTest, JacobianIsTheDerivative) {
   }
 }
 
+// One evaluator and one skinned joint could not carry it.
+TEST(FaceRigTest, AParameterOfTheJawDisplacesNothingBesides) {
+  RigDefinition definition = MakeToyRig().definition();
+  ASSERT_TRUE(definition.jaw.has_value());
+  definition.transforms.push_back({.parameter = definition.jaw->rotation_parameter,
+                                   .weight_map = 0,
+                                   .vector = Eigen::Vector3d::UnitX()});
+  const auto rig = FaceRig::Create(definition);
+  ASSERT_FALSE(rig);
+  EXPECT_NE(rig.error().message.find("the jaw's"), std::string::npos) << rig.error().message;
+}
+
 }  // namespace
 }  // namespace articap

@@ -503,7 +503,7 @@ TEST(StabilizeNoneTest, OnlyTheAxesAreApplied) {
   const auto result = StabilizeOrDie(tracks, DeclaredSet(StabilizationMode::kNone));
   for (int frame = 0; frame < 50; ++frame)
     for (int marker = 0; marker < tracks.num_markers(); ++marker) {
-      const Eigen::Vector3d p = tracks.position_mm(frame, marker);
+      const Eigen::Vector3d& p = tracks.position_mm(frame, marker);
       EXPECT_THAT(result.output.tracks.position_mm(frame, marker),
                   PointNear(Eigen::Vector3d(p.y(), p.z(), p.x()), 1e-9));
     }
