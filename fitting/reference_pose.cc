@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace articap {
 namespace {
@@ -17,9 +16,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // spread, or this many mm where it hardly varies.
 constexpr double kClosedPart = 0.15;
 constexpr double kClosedMargin_mm = 1.5;
-
-// Poses of a face this near to one another are the same.
-constexpr double kSamePose_mm = 0.7;
 
 // The shortest window that is averaged, frames.
 constexpr int kShortestWindow = 8;
@@ -62,71 +58,37 @@ std::vector<bool> ClosedFrames(const std::vector<std::vector<double>>& distances
   return closed;
 }
 
-std::vector<int> FaceColumns(const HeadTracks& tracks, const MarkerSet& set) {
-  std::vector<int> columns;
-  for (int marker = 0; marker < tracks.num_markers(); ++marker)
-    if (const MarkerRole* const role = set.Find(tracks.names()[marker]); role && role->face)
-      columns.push_back(marker);
-  return columns;
-}
-
-// Root mean square distance between two poses of the face, over the markers seen in both; NaN where
-// there are none.
-double PoseDistance_mm(const HeadTracks& tracks, const std::vector<int>& columns, int a, int b) {
-  double sum = 0;
-  int count = 0;
-  for (const int column : columns) {
-    const double square =
-        (tracks.position_mm(a, column) - tracks.position_mm(b, column)).squaredNorm();
-    if (std::isnan(square)) continue;  // missing in one of them
-    sum += square;
-    ++count;
-  }
-  return count > 0 ? std::sqrt(sum / count) : kNaN;
-}
-
-// The frame whose pose is the most usual among those marked: that which the most others are near.
-// Mouths are closed for many reasons (pressed lips, a jaw pushed forward, cheeks blown up); the
-// relaxed one is what a face returns to.
-std::optional<int> MostUsualFrame(const HeadTracks& tracks, const std::vector<int>& columns,
-                                  const std::vector<bool>& marked) {
-  constexpr std::size_t kMostFrames = 500;
-  std::vector<int> frames;
-  for (int frame = 0; frame < tracks.num_frames(); ++frame)
-    if (marked[frame]) frames.push_back(frame);
-  if (frames.empty()) return std::nullopt;
-  std::vector<int> sample;
-  const std::size_t size = std::min(kMostFrames, frames.size());
-  for (std::size_t i = 0; i < size; ++i) sample.push_back(frames[i * frames.size() / size]);
-
-  std::vector<double> distances_mm(size * size);
-  std::vector<double> known;
-  for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t k = 0; k < i; ++k) {
-      const double distance = PoseDistance_mm(tracks, columns, sample[i], sample[k]);
-      distances_mm[i * size + k] = distances_mm[k * size + i] = distance;
-      if (std::isfinite(distance)) known.push_back(distance);
-    }
-  if (known.empty()) return sample.front();
-  // Near: as the nearest tenth of all pairs are, or within what skin and markers never keep.
-  const auto tenth = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 10);
-  std::nth_element(known.begin(), tenth, known.end());
-  const double near_mm = std::max(kSamePose_mm, *tenth);
-  std::vector<int> neighbours(size);
-  for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t k = 0; k < size; ++k)
-      neighbours[i] += k != i && distances_mm[i * size + k] <= near_mm;
-  return sample[std::max_element(neighbours.begin(), neighbours.end()) - neighbours.begin()];
-}
-
+// Root mean square distance of the face markers from their medians over the frames marked. Mouths
+// are closed for many reasons (pressed lips, a jaw pushed forward); the relaxed one is the usual
+// one.
 std::vector<double> DistancesFromUsual(const HeadTracks& tracks, const MarkerSet& set,
-                                       const std::vector<bool>& closed) {
-  const std::vector<int> columns = FaceColumns(tracks, set);
-  std::vector<double> distances(tracks.num_frames(), kNaN);
-  if (const auto usual = MostUsualFrame(tracks, columns, closed))
+                                       const std::vector<bool>& usual) {
+  std::vector<double> squares(tracks.num_frames(), 0.0);
+  std::vector<int> counts(tracks.num_frames(), 0);
+  for (int marker = 0; marker < tracks.num_markers(); ++marker) {
+    const MarkerRole* const role = set.Find(tracks.names()[marker]);
+    if (role == nullptr || !role->face) continue;
+    Eigen::Vector3d median;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> values;
+      for (int frame = 0; frame < tracks.num_frames(); ++frame)
+        if (usual[frame] && !tracks.is_missing(frame, marker))
+          values.push_back(tracks.position_mm(frame, marker)[axis]);
+      if (values.empty()) values.push_back(kNaN);
+      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), middle, values.end());
+      median[axis] = *middle;
+    }
+    if (!median.allFinite()) continue;
     for (int frame = 0; frame < tracks.num_frames(); ++frame)
-      distances[frame] = PoseDistance_mm(tracks, columns, frame, *usual);
-  return distances;
+      if (!tracks.is_missing(frame, marker)) {
+        squares[frame] += (tracks.position_mm(frame, marker) - median).squaredNorm();
+        ++counts[frame];
+      }
+  }
+  for (int frame = 0; frame < tracks.num_frames(); ++frame)
+    squares[frame] = counts[frame] == 0 ? kNaN : std::sqrt(squares[frame] / counts[frame]);
+  return squares;
 }
 
 // How much the face moves from frame to frame: mean speed of the face markers, mm per frame.
