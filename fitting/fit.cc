@@ -7,41 +7,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <optional>
 
 #include "fitting/bind.h"
-#include "fitting/determination.h"
 #include "fitting/fit_report.h"
-#include "fitting/frame_fits.h"
-#include "fitting/refinement.h"
-#include "fitting/smoothing.h"
 #include "fitting/spikes.h"
+#include "fitting/take_fitter.h"
 #include "rig/attachment.h"
 
 namespace articap {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-// Median length of a vector of three normal deviates, in their sigmas.
-constexpr double kMedianLength = 1.5382;
 
 // The spatial median of three-dimensional normal noise needs 3 pi / 8 times the variance of the
 // mean (Brown 1983).
 const double kDistanceInefficiency = std::sqrt(3 * M_PI / 8);
-
-// Of the movement, %; on real faces bound well the rig explains nine tenths.
-constexpr double kLittleExplained = 75;
-
-// Residuals this many times larger than the assumed noise deserve a word.
-constexpr double kNoisierThanAssumed = 3;
-
-// How far refinement may move a marker on the rig, mm of the rig: one face's error of attachment to
-// another.
-constexpr double kRefinementReach_mm = 20;
-constexpr int kRefinementRounds = 8;
 
 struct FaceMarkers {
   std::vector<VirtualMarker> markers;
@@ -130,44 +110,6 @@ RigTracks WithoutSpikes(RigTracks tracks, const FitOptions& options, double rig_
   return tracks;
 }
 
-// Ranges of the parameters, and the bounds within which they are fitted.
-struct Box {
-  Eigen::VectorXd ranges, lower, upper;
-};
-
-Box BoxOf(const FaceRig& rig, bool bounded) {
-  const int size = rig.num_parameters();
-  Box box{Eigen::VectorXd(size), Eigen::VectorXd(size), Eigen::VectorXd(size)};
-  for (int k = 0; k < size; ++k) {
-    const RigParameter& parameter = rig.definition().parameters[k];
-    box.ranges[k] = parameter.max - parameter.min;
-    box.lower[k] = bounded ? parameter.min : -kInfinity;
-    box.upper[k] = bounded ? parameter.max : kInfinity;
-  }
-  return box;
-}
-
-// `sigmas`: of each parameter were all of them free.
-void NoteUndetermined(const FaceRig& rig, const Eigen::VectorXd& sigmas,
-                      const std::vector<bool>& determined, const FitOptions& options,
-                      StageReport* report) {
-  std::vector<std::string> held, kept;
-  for (int k = 0; k < rig.num_parameters(); ++k) {
-    const RigParameter& parameter = rig.definition().parameters[k];
-    (determined[k] ? kept : held).push_back(parameter.name);
-    if (determined[k]) continue;
-    const double part = sigmas[k] / (parameter.max - parameter.min);
-    report->warnings.push_back(fmt::format(
-        "{} is not determined by these markers ({}) and is held at the reference", parameter.name,
-        part < 100 ? fmt::format("its standard deviation would be {:.0f} % of its range, above "
-                                 "{:.0f} %",
-                                 100 * part, 100 * options.max_sigma_of_range)
-                   : "none of them tells it apart"));
-  }
-  report->texts.emplace_back("determined", fmt::format("{}", fmt::join(kept, ", ")));
-  report->texts.emplace_back("held", fmt::format("{}", fmt::join(held, ", ")));
-}
-
 // Frames spread evenly over the take.
 std::vector<int> SpreadFrames(int num_frames, int wanted) {
   std::vector<int> frames;
@@ -175,27 +117,6 @@ std::vector<int> SpreadFrames(int num_frames, int wanted) {
   for (int i = 0; i < count; ++i)
     frames.push_back(static_cast<int>((2LL * i + 1) * num_frames / (2LL * count)));
   return frames;
-}
-
-// Prior weights on second differences; see FitOptions::smoothing_s.
-Eigen::VectorXd SmoothingWeights(const FitOptions& options, const Eigen::VectorXd& ranges,
-                                 double rate_hz, double sigma_rig_mm) {
-  // An acceleration of one range per smoothing_s^2, as a second difference of frames.
-  const double frames = options.smoothing_s * rate_hz;
-  const Eigen::VectorXd typical = ranges / (frames * frames);
-  const double cost =
-      options.metric == FitMetric::kDistance ? 0.5 * sigma_rig_mm : sigma_rig_mm * sigma_rig_mm;
-  return cost * typical.array().square().inverse();
-}
-
-void NoteSmoothing(const FitOptions& options, const Smoothing& smoothing, StageReport* report) {
-  if (options.smoothing_s == 0) return;
-  report->figures.emplace_back("smoothing_steps", smoothing.steps);
-  if (!smoothing.converged)
-    report->warnings.push_back(fmt::format(
-        "smoothing stopped after {} steps, short of the minimum; a shorter --smoothing-s "
-        "is easier, and gaps of many markers make it harder",
-        smoothing.steps));
 }
 
 // Some frames of a take, one after the other.
@@ -207,75 +128,6 @@ RigTracks ChosenFrames(const RigTracks& tracks, const std::vector<int>& frames) 
         chosen.Set(i, marker, tracks.position_mm(frames[i], marker));
   return chosen;
 }
-
-// The markers of one take, fitted as often as their places on the rig change.
-class TakeFitter {
- public:
-  // Everything must outlive the fitter.
-  TakeFitter(const FaceRig& rig, const Eigen::VectorXd& reference, const RigTracks& measured,
-             double rig_scale, const FitOptions& options)
-      : rig_(rig),
-        reference_(reference),
-        measured_(measured),
-        marker_sigma_mm_(rig_scale * options.marker_sigma_mm),
-        options_(options),
-        box_(BoxOf(rig, options.bounded)) {}
-
-  struct Pass {
-    FrameFits fits;
-    std::vector<bool> determined;
-    Eigen::VectorXd sigmas;  // of each parameter were all of them free
-    Smoothing smoothing;
-  };
-
-  // Frame by frame, then with the smoothness prior where `smooth` and the options ask for it.
-  Pass Run(const std::vector<VirtualMarker>& markers, bool smooth,
-           const std::function<void(double part)>& progress) const {
-    const VirtualMarkerEvaluator evaluator(rig_, markers);
-    const Determination determination(evaluator, reference_, box_.ranges, marker_sigma_mm_,
-                                      options_.max_sigma_of_range);
-    const auto all_seen = std::make_unique<bool[]>(markers.size());
-    std::fill_n(all_seen.get(), markers.size(), true);
-    Pass pass;
-    pass.determined = determination.Determined({all_seen.get(), markers.size()});
-    pass.sigmas = determination.Sigmas();
-    const FrameFitSetup setup{evaluator,  determination,   reference_,
-                              box_.lower, box_.upper,      pass.determined,
-                              LossOf(),   options_.solver, options_.threads};
-    pass.fits = FitFrames(measured_, setup, progress);
-    if (smooth && options_.smoothing_s > 0) {
-      pass.smoothing =
-          SmoothFits(measured_, setup,
-                     SmoothingWeights(options_, box_.ranges, measured_.rate_hz(), marker_sigma_mm_),
-                     &pass.fits);
-      EvaluateFits(measured_, setup, &pass.fits);
-    }
-    return pass;
-  }
-
-  // Poses and places in turn, from the markers as they were bound.
-  std::vector<VirtualMarker> Refine(const std::vector<VirtualMarker>& bound) const {
-    std::vector<int> frames(measured_.num_frames());
-    std::iota(frames.begin(), frames.end(), 0);
-    std::vector<VirtualMarker> markers = bound;
-    for (int round = 0; round < kRefinementRounds; ++round) {
-      const Pass pass = Run(markers, false, nullptr);
-      markers = RefineAttachments(rig_, bound, markers, measured_, frames, pass.fits.parameters,
-                                  kRefinementReach_mm);
-    }
-    return markers;
-  }
-
- private:
-  MarkerLoss LossOf() const { return {options_.metric, options_.epsilon_mm, options_.huber_mm}; }
-
-  const FaceRig& rig_;
-  const Eigen::VectorXd& reference_;
-  const RigTracks& measured_;
-  double marker_sigma_mm_;  // mm of the rig
-  const FitOptions& options_;
-  Box box_;
-};
 
 RigTracks VirtualMarkerTracks(const RigTracks& measured, const FrameFits& fits) {
   RigTracks tracks(measured.names(), measured.num_frames(), measured.rate_hz(),
@@ -301,53 +153,6 @@ Eigen::MatrixXf Residuals(const RigTracks& measured, const RigTracks& virtual_ma
                 .norm() /
             rig_scale);
   return residuals;
-}
-
-// Standard deviation of a marker's coordinate, mm of the speaker, from the median residual and the
-// freedom that the parameters leave to the residuals; nothing where they leave next to none.
-std::optional<double> MarkerSigma_mm(const Eigen::MatrixXf& residuals_mm,
-                                     const Eigen::MatrixXd& unit_sigmas) {
-  constexpr double kLeastFreedom = 0.05;  // of all numbers
-  std::vector<float> lengths;
-  double numbers = 0, freedom = 0;
-  for (Eigen::Index frame = 0; frame < residuals_mm.rows(); ++frame) {
-    int seen = 0;
-    for (const float residual : residuals_mm.row(frame))
-      if (std::isfinite(residual)) {
-        lengths.push_back(residual);
-        ++seen;
-      }
-    const auto free = unit_sigmas.row(frame).array().isFinite().count();
-    numbers += 3 * seen;
-    freedom += std::max(0.0, static_cast<double>(3 * seen - free));
-  }
-  if (lengths.empty() || freedom < kLeastFreedom * numbers) return std::nullopt;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle / kMedianLength * std::sqrt(numbers / freedom);
-}
-
-// The noise that the parameters' sigmas are reckoned with: that of the residuals, where they tell.
-double EstimateSigma(const ShapeFit& fit, const FrameFits& fits, const FitOptions& options,
-                     StageReport* report) {
-  const auto estimate = MarkerSigma_mm(fit.residuals_mm, fits.unit_sigmas);
-  if (!estimate) {
-    report->warnings.push_back(fmt::format(
-        "the markers meet the rig exactly, whatever they measure: they are too few to tell their "
-        "own noise; the sigmas assume {:.2g} mm a coordinate (--marker-sigma-mm)",
-        options.marker_sigma_mm));
-    return options.marker_sigma_mm;
-  }
-  report->figures.emplace_back("residual_sigma_mm", *estimate);
-  if (*estimate > kNoisierThanAssumed * options.marker_sigma_mm)
-    report->warnings.push_back(fmt::format(
-        "the residuals are those of {:.2f} mm a coordinate, and which parameters are determined "
-        "was "
-        "decided with {:.2f} mm: some are less certain than their range allows (see their sigmas). "
-        "The rig does not fit this face everywhere, or the markers are noisy; "
-        "--marker-sigma-mm {:.2f} holds what is uncertain",
-        *estimate, options.marker_sigma_mm, *estimate));
-  return *estimate;
 }
 
 const char* UnitName(ParameterUnit unit) {
@@ -404,54 +209,6 @@ void MarkFramesWithoutHead(const HeadTracks& tracks, std::vector<FitStatus>* sta
     if (std::ranges::all_of(tracks.states(frame),
                             [](SampleState state) { return state == SampleState::kMissing; }))
       (*statuses)[frame] = FitStatus::kNoHeadPose;
-}
-
-// Whether the parameters may be used, and why not.
-void Judge(const ShapeFit& fit, const ExplainedVariance& explained, int num_determined,
-           StageReport* report) {
-  const int num_frames = fit.parameters.num_frames();
-  int fitted = 0;
-  for (const double residual : fit.parameters.residuals_mm) fitted += std::isfinite(residual);
-  const double percent =
-      100 * (std::isfinite(explained.mouth_and_chin) ? explained.mouth_and_chin : explained.all);
-  report->verdict = fmt::format("{} of {} frames fitted with {} of {} parameters", fitted,
-                                num_frames, num_determined, fit.parameters.num_parameters());
-  report->usable = false;
-  if (num_determined == 0)
-    report->verdict +=
-        ": the markers determine none; bring more, or allow more uncertainty "
-        "(--max-sigma-of-range, --marker-sigma-mm)";
-  else if (2 * fitted < num_frames || fitted == 0)
-    report->verdict +=
-        ": too few to go on with; see which markers are missing, and the head "
-        "stabilisation's report";
-  else if (percent < 0)
-    report->verdict += fmt::format(
-        "; the rig explains {:.1f} % of the movement: a face that stood still would come nearer. "
-        "The "
-        "reference pose (--reference) is no face at rest, or markers are misnamed",
-        percent);
-  else
-    report->usable = true;
-  if (!report->usable) {
-    report->verdict = "not usable: " + report->verdict;
-    return;
-  }
-  if (!std::isfinite(percent)) {
-    report->verdict +=
-        "; how much of the movement the rig explains was not judged: every frame "
-        "served the binding or the refinement, or no marker has freedom left";
-    return;
-  }
-  report->verdict +=
-      fmt::format("; the rig explains {:.1f} % of the movement{}", percent,
-                  std::isfinite(explained.mouth_and_chin) ? " of mouth and chin" : "");
-  if (percent < kLittleExplained)
-    report->warnings.push_back(fmt::format(
-        "the rig explains only {:.0f} % of the movement: refine where the markers sit "
-        "(--refine-frames 300), choose another reference pose (--reference), or see by the "
-        "residuals which markers do not fit",
-        percent));
 }
 
 }  // namespace

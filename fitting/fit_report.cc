@@ -2,12 +2,14 @@
 #include "fitting/fit_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "fitting/displaced_markers.h"
 
@@ -18,6 +20,15 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A parameter that rests at a bound for more than this part of the take deserves a word.
 constexpr double kOftenAtBound = 0.05;
+
+// Median length of a vector of three normal deviates, in their sigmas.
+constexpr double kMedianLength = 1.5382;
+
+// Of the movement, %; on real faces bound well the rig explains nine tenths.
+constexpr double kLittleExplained = 75;
+
+// Residuals this many times larger than the assumed noise deserve a word.
+constexpr double kNoisierThanAssumed = 3;
 
 double Percentile(std::vector<double> values, double part) {
   if (values.empty()) return kNaN;
@@ -92,6 +103,30 @@ ReportTable ResidualTable(const ShapeFit& fit, const ExplainedVariance& explaine
   return table;
 }
 
+// Standard deviation of a marker's coordinate, mm of the speaker, from the median residual and the
+// freedom that the parameters leave to the residuals; nothing where they leave next to none.
+std::optional<double> MarkerSigma_mm(const Eigen::MatrixXf& residuals_mm,
+                                     const Eigen::MatrixXd& unit_sigmas) {
+  constexpr double kLeastFreedom = 0.05;  // of all numbers
+  std::vector<float> lengths;
+  double numbers = 0, freedom = 0;
+  for (Eigen::Index frame = 0; frame < residuals_mm.rows(); ++frame) {
+    int seen = 0;
+    for (const float residual : residuals_mm.row(frame))
+      if (std::isfinite(residual)) {
+        lengths.push_back(residual);
+        ++seen;
+      }
+    const auto free = unit_sigmas.row(frame).array().isFinite().count();
+    numbers += 3 * seen;
+    freedom += std::max(0.0, static_cast<double>(3 * seen - free));
+  }
+  if (lengths.empty() || freedom < kLeastFreedom * numbers) return std::nullopt;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle / kMedianLength * std::sqrt(numbers / freedom);
+}
+
 }  // namespace
 
 ExplainedVariance ExplainVariance(const ShapeFit& fit, const std::vector<bool>& judged,
@@ -152,6 +187,105 @@ void DescribeFit(const ShapeFit& fit, const FaceRig& rig, const std::vector<bool
         "through the take: glued elsewhere, or carrying another marker's name? Bind anew, or leave "
         "it out",
         displaced.name, displaced.distance_mm));
+}
+
+void NoteUndetermined(const FaceRig& rig, const Eigen::VectorXd& sigmas,
+                      const std::vector<bool>& determined, const FitOptions& options,
+                      StageReport* report) {
+  std::vector<std::string> held, kept;
+  for (int k = 0; k < rig.num_parameters(); ++k) {
+    const RigParameter& parameter = rig.definition().parameters[k];
+    (determined[k] ? kept : held).push_back(parameter.name);
+    if (determined[k]) continue;
+    const double part = sigmas[k] / (parameter.max - parameter.min);
+    report->warnings.push_back(fmt::format(
+        "{} is not determined by these markers ({}) and is held at the reference", parameter.name,
+        part < 100 ? fmt::format("its standard deviation would be {:.0f} % of its range, above "
+                                 "{:.0f} %",
+                                 100 * part, 100 * options.max_sigma_of_range)
+                   : "none of them tells it apart"));
+  }
+  report->texts.emplace_back("determined", fmt::format("{}", fmt::join(kept, ", ")));
+  report->texts.emplace_back("held", fmt::format("{}", fmt::join(held, ", ")));
+}
+
+void NoteSmoothing(const FitOptions& options, const Smoothing& smoothing, StageReport* report) {
+  if (options.smoothing_s == 0) return;
+  report->figures.emplace_back("smoothing_steps", smoothing.steps);
+  if (!smoothing.converged)
+    report->warnings.push_back(fmt::format(
+        "smoothing stopped after {} steps, short of the minimum; a shorter --smoothing-s "
+        "is easier, and gaps of many markers make it harder",
+        smoothing.steps));
+}
+
+double EstimateSigma(const ShapeFit& fit, const FrameFits& fits, const FitOptions& options,
+                     StageReport* report) {
+  const auto estimate = MarkerSigma_mm(fit.residuals_mm, fits.unit_sigmas);
+  if (!estimate) {
+    report->warnings.push_back(fmt::format(
+        "the markers meet the rig exactly, whatever they measure: they are too few to tell their "
+        "own noise; the sigmas assume {:.2g} mm a coordinate (--marker-sigma-mm)",
+        options.marker_sigma_mm));
+    return options.marker_sigma_mm;
+  }
+  report->figures.emplace_back("residual_sigma_mm", *estimate);
+  if (*estimate > kNoisierThanAssumed * options.marker_sigma_mm)
+    report->warnings.push_back(fmt::format(
+        "the residuals are those of {:.2f} mm a coordinate, and which parameters are determined "
+        "was "
+        "decided with {:.2f} mm: some are less certain than their range allows (see their sigmas). "
+        "The rig does not fit this face everywhere, or the markers are noisy; "
+        "--marker-sigma-mm {:.2f} holds what is uncertain",
+        *estimate, options.marker_sigma_mm, *estimate));
+  return *estimate;
+}
+
+void Judge(const ShapeFit& fit, const ExplainedVariance& explained, int num_determined,
+           StageReport* report) {
+  const int num_frames = fit.parameters.num_frames();
+  int fitted = 0;
+  for (const double residual : fit.parameters.residuals_mm) fitted += std::isfinite(residual);
+  const double percent =
+      100 * (std::isfinite(explained.mouth_and_chin) ? explained.mouth_and_chin : explained.all);
+  report->verdict = fmt::format("{} of {} frames fitted with {} of {} parameters", fitted,
+                                num_frames, num_determined, fit.parameters.num_parameters());
+  report->usable = false;
+  if (num_determined == 0)
+    report->verdict +=
+        ": the markers determine none; bring more, or allow more uncertainty "
+        "(--max-sigma-of-range, --marker-sigma-mm)";
+  else if (2 * fitted < num_frames || fitted == 0)
+    report->verdict +=
+        ": too few to go on with; see which markers are missing, and the head "
+        "stabilisation's report";
+  else if (percent < 0)
+    report->verdict += fmt::format(
+        "; the rig explains {:.1f} % of the movement: a face that stood still would come nearer. "
+        "The "
+        "reference pose (--reference) is no face at rest, or markers are misnamed",
+        percent);
+  else
+    report->usable = true;
+  if (!report->usable) {
+    report->verdict = "not usable: " + report->verdict;
+    return;
+  }
+  if (!std::isfinite(percent)) {
+    report->verdict +=
+        "; how much of the movement the rig explains was not judged: every frame "
+        "served the binding or the refinement, or no marker has freedom left";
+    return;
+  }
+  report->verdict +=
+      fmt::format("; the rig explains {:.1f} % of the movement{}", percent,
+                  std::isfinite(explained.mouth_and_chin) ? " of mouth and chin" : "");
+  if (percent < kLittleExplained)
+    report->warnings.push_back(fmt::format(
+        "the rig explains only {:.0f} % of the movement: refine where the markers sit "
+        "(--refine-frames 300), choose another reference pose (--reference), or see by the "
+        "residuals which markers do not fit",
+        percent));
 }
 
 }  // namespace articap

@@ -7,6 +7,8 @@
 #include "core/binding.h"
 #include "core/report.h"
 #include "fitting/fit.h"
+#include "fitting/frame_fits.h"
+#include "fitting/smoothing.h"
 #include "rig/face_rig.h"
 
 namespace articap {
@@ -27,5 +29,21 @@ ExplainedVariance ExplainVariance(const ShapeFit& fit, const std::vector<bool>& 
 // Tables and figures of a fit: parameters, residuals per marker, statuses.
 void DescribeFit(const ShapeFit& fit, const FaceRig& rig, const std::vector<bool>& determined,
                  const ExplainedVariance& explained, StageReport* report);
+
+// Which parameters are determined and which are held, and why. `sigmas`: of each parameter were all
+// of them free.
+void NoteUndetermined(const FaceRig& rig, const Eigen::VectorXd& sigmas,
+                      const std::vector<bool>& determined, const FitOptions& options,
+                      StageReport* report);
+void NoteSmoothing(const FitOptions& options, const Smoothing& smoothing, StageReport* report);
+
+// The noise that the parameters' sigmas are reckoned with, mm of the speaker: that of the
+// residuals, where they tell; else the assumed one, with a warning.
+double EstimateSigma(const ShapeFit& fit, const FrameFits& fits, const FitOptions& options,
+                     StageReport* report);
+
+// The verdict: whether the parameters may be used, and why not.
+void Judge(const ShapeFit& fit, const ExplainedVariance& explained, int num_determined,
+           StageReport* report);
 
 }  // namespace articap
