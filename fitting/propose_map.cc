@@ -2,6 +2,7 @@
 #include "fitting/propose_map.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -200,6 +201,30 @@ ReportTable TableOf(const std::vector<PlacedMarker>& markers) {
   return table;
 }
 
+// "left_eye_outer" of "right_eye_outer", "chin_right" of "chin_left"; empty for those in the
+// middle.
+std::string OtherSideOf(const std::string& landmark) {
+  for (const auto& [side, other] : {std::pair{"left", "right"}, std::pair{"right", "left"}})
+    if (const std::size_t at = landmark.find(side); at != std::string::npos)
+      return std::string(landmark).replace(at, std::string(side).size(), other);
+  return "";
+}
+
+// Faces wear markers in pairs: a landmark without its other side is one that was taken for another.
+void WarnOfLonelySides(const MarkerSet& set, StageReport& report) {
+  std::vector<std::string> lonely;
+  for (const MarkerRole& marker : set.markers) {
+    const std::string other = OtherSideOf(marker.landmark);
+    const auto is_other = [&](const MarkerRole& role) { return role.landmark == other; };
+    if (!other.empty() && std::ranges::none_of(set.markers, is_other))
+      lonely.push_back(fmt::format("{} ({})", marker.landmark, marker.name));
+  }
+  if (!lonely.empty())
+    report.warnings.push_back(fmt::format(
+        "landmarks on one side of the face alone, of which some are taken for their neighbours: {}",
+        fmt::join(lonely, ", ")));
+}
+
 void Judge(const MarkerSet& set, const IcpAlignment& alignment, const Sim3d& rig_from_stage,
            StageReport& report) {
   const auto count = [&](auto field) { return std::ranges::count(set.markers, true, field); };
@@ -214,6 +239,7 @@ void Judge(const MarkerSet& set, const IcpAlignment& alignment, const Sim3d& rig
                     {"strategic_markers", static_cast<double>(num_strategic)},
                     {"face_markers", static_cast<double>(count(&MarkerRole::face))},
                     {"runner_up_cost_ratio", alignment.runner_up_cost / alignment.cost}};
+  WarnOfLonelySides(set, report);
   if (num_head == 0)
     report.warnings.push_back(
         "fewer than three markers sit on skull or nose: the map says that the head is fixed "
