@@ -12,6 +12,7 @@
 
 #include "core/check.h"
 #include "core/csv_rows.h"
+#include "core/io/timing.h"
 #include "core/parameter_track.h"
 #include "core/parameter_units.h"
 
@@ -294,6 +295,10 @@ Result<double> RateOf(const Rows& rows, const std::string& source_name) {
   const double count = static_cast<double>(times_ns.size() - 1);
   const double period_ns =
       (static_cast<double>(times_ns.back()) - static_cast<double>(times_ns.front())) / count;
+  if (period_ns > 0 && !IsUsableRate(1e9 / period_ns))
+    return Fail(
+        fmt::format("{}:{}: the times give {:.3g} frames a second; time_s must ascend, in seconds",
+                    source_name, rows.lines.back(), 1e9 / period_ns));
   for (const double tolerance_ns : {0.5, 5e2, 5e4, 5e5})
     if (tolerance_ns < std::max(1.0, 0.2 * period_ns))
       if (const auto rate_hz = RoundestRate(times_ns, tolerance_ns)) return *rate_hz;
