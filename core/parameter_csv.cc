@@ -295,13 +295,14 @@ Result<double> RateOf(const Rows& rows, const std::string& source_name) {
   const double count = static_cast<double>(times_ns.size() - 1);
   const double period_ns =
       (static_cast<double>(times_ns.back()) - static_cast<double>(times_ns.front())) / count;
-  if (period_ns > 0 && !IsUsableRate(1e9 / period_ns))
-    return Fail(
-        fmt::format("{}:{}: the times give {:.3g} frames a second; time_s must ascend, in seconds",
-                    source_name, rows.lines.back(), 1e9 / period_ns));
   for (const double tolerance_ns : {0.5, 5e2, 5e4, 5e5})
     if (tolerance_ns < std::max(1.0, 0.2 * period_ns))
-      if (const auto rate_hz = RoundestRate(times_ns, tolerance_ns)) return *rate_hz;
+      if (const auto rate_hz = RoundestRate(times_ns, tolerance_ns)) {
+        if (IsUsableRate(*rate_hz)) return *rate_hz;
+        return Fail(
+            fmt::format("{}:{}: the times give {:.3g} frames a second; time_s must be in seconds",
+                        source_name, rows.lines.back(), *rate_hz));
+      }
   double largest_ns = -1;
   std::size_t worst = 0;
   for (std::size_t i = 1; i < times_ns.size(); ++i) {

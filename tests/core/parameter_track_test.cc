@@ -190,6 +190,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadCsv{HEADER "1,0.0,1,1,ok\n2,0.1,1,1,ok\n3,0.2,1,1,ok\n4,0.9,1,1,ok\n",
                            ":5: the times are not at a constant rate"},
                     BadCsv{HEADER "1,0,1,1,ok\n2,0,1,1,ok\n", "not at a constant rate"},
+                    BadCsv{HEADER "1,0.7,1,1,ok\n2,27528232.146,1,1,ok\n",
+                           ":3: the times give 3.63e-08 frames a second"},
                     BadCsv{HEADER "1,-3.9e9,1,1,ok\n2,3.9e9,1,1,ok\n3,0,1,1,ok\n",
                            "not at a constant rate"}));
 #undef HEADER
