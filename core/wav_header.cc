@@ -53,9 +53,7 @@ class WavReader {
     is_rf64_ = start.starts_with("RF64");
     for (std::int64_t place = 12;;) {
       const std::optional<Chunk> chunk = ChunkAt(place);
-      if (!chunk)
-        return Refused(fmt::format("ends after {} bytes, before its {}; it was cut short", size_,
-                                   header_.channels > 0 ? "samples" : "format"));
+      if (!chunk) return EndsEarly();
       if (chunk->id == "data") return Finish(*chunk);
       if (const Result<void> read = ReadChunk(*chunk); !read) return tl::unexpected(read.error());
       // Chunks begin at even places.
@@ -66,6 +64,11 @@ class WavReader {
  private:
   tl::unexpected<Error> Refused(const std::string& what) const {
     return Fail(fmt::format("{}: {}", source_name_, what));
+  }
+
+  tl::unexpected<Error> EndsEarly() const {
+    return Refused(fmt::format("ends after {} bytes, before its {}; it was cut short", size_,
+                               header_.channels > 0 ? "samples" : "format"));
   }
 
   // Fewer where the file ends.
@@ -96,8 +99,8 @@ class WavReader {
   // The sizes of an RF64 file that 32 bits do not hold: the file's, the data's, the frames.
   Result<void> ReadDs64(const Chunk& chunk) {
     const std::string bytes = BytesAt(chunk.start, 16);
-    if (chunk.size < 16 || bytes.size() < 16)
-      return Refused("its chunk ds64 is too short to hold the size of the data");
+    if (chunk.size >= 16 && bytes.size() < 16) return EndsEarly();
+    if (chunk.size < 16) return Refused("its chunk ds64 is too short to hold the size of the data");
     const std::uint64_t data_size = LittleEndian(bytes, 8, 8);
     if (data_size > static_cast<std::uint64_t>(INT64_MAX))
       return Refused(
@@ -108,11 +111,12 @@ class WavReader {
 
   Result<void> ReadFormat(const Chunk& chunk) {
     constexpr std::int64_t kShortest = 16, kLongest = 40;
-    const std::string bytes =
-        BytesAt(chunk.start, static_cast<std::size_t>(std::min(chunk.size, kLongest)));
-    if (static_cast<std::int64_t>(bytes.size()) < kShortest)
+    const std::int64_t wanted = std::min(chunk.size, kLongest);
+    if (wanted < kShortest)
       return Refused(fmt::format("its format has {} bytes, where at least {} are needed",
-                                 bytes.size(), kShortest));
+                                 chunk.size, kShortest));
+    const std::string bytes = BytesAt(chunk.start, static_cast<std::size_t>(wanted));
+    if (static_cast<std::int64_t>(bytes.size()) < wanted) return EndsEarly();
     const auto coding = CodingOf(bytes);
     if (!coding) return tl::unexpected(coding.error());
     header_.sample_kind =
