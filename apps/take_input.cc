@@ -28,7 +28,9 @@ Result<void> AddLabels(const std::string& folder, const StoredTake& take,
     return Fail(fmt::format("{}: the take has {} files of labels; choose one with --labels", folder,
                             labels.size()));
   input.labels = NameIn(folder, labels[0]);
-  input.labels_shift_s = std::chrono::duration<double>(labels[0].offset - files[0].offset).count();
+  // In seconds before they are subtracted: the file's numbers may be anything.
+  using Seconds = std::chrono::duration<double>;
+  input.labels_shift_s = (Seconds(labels[0].offset) - Seconds(files[0].offset)).count();
   files.push_back(labels[0]);
   return {};
 }
