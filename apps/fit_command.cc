@@ -10,6 +10,7 @@
 #include "apps/progress.h"
 #include "apps/resources.h"
 #include "apps/rig_input.h"
+#include "apps/take_input.h"
 #include "apps/verbs.h"
 
 namespace articap {
@@ -17,6 +18,7 @@ namespace {
 
 struct FitArguments {
   std::string markers, binding, rig_folder, map, reference, labels, tier, window, output, config;
+  double labels_shift_s = 0;
   PipelineOptions pipeline;
 };
 
@@ -90,10 +92,23 @@ Result<FitOutcome> FitByReference(const Take& take, const FaceRig& rig,
   return FitBoundTake(take, bound->binding, rig, options);
 }
 
+// A take of a session stands for its files, and for the map and the rig that the session names.
+Result<void> ResolveTake(FitArguments& arguments) {
+  const Result<TakeInput> input = FindTakeInput(arguments.markers, arguments.labels);
+  if (!input) return tl::unexpected(input.error());
+  arguments.markers = input->markers;
+  arguments.labels = input->labels;
+  arguments.labels_shift_s = input->labels_shift_s;
+  if (arguments.binding.empty() && arguments.map.empty()) arguments.map = input->map;
+  if (arguments.rig_folder.empty()) arguments.rig_folder = input->rig_folder;
+  return {};
+}
+
 Result<void> AddLabels(const FitArguments& arguments, FitOutcome& outcome) {
   if (arguments.labels.empty()) return {};
-  const Result<TextGrid> labels = ReadTextGrid(arguments.labels);
+  Result<TextGrid> labels = ReadTextGrid(arguments.labels);
   if (!labels) return tl::unexpected(labels.error());
+  ShiftTimes(*labels, arguments.labels_shift_s);
   const Result<void> labelled = LabelFrames(*labels, arguments.tier, outcome);
   if (!labelled) return Fail(fmt::format("{}: {}", arguments.labels, labelled.error().message));
   return {};
@@ -131,16 +146,19 @@ ExitCode FitCommand(const std::vector<std::string>& arguments) {
                 "residuals.csv, head_pose.csv, report.json, report.html, animation.glb and\n"
                 "binding.toml in the folder DIR.",
                 "articap fit take01.c3d --binding anna.binding.toml -o take01\n"
+                "  articap fit anna_01/takes/take01 -o anna_01/derived/take01\n"
                 "  articap fit take01.c3d --map spectacles30 --labels take01.TextGrid -o take01");
   FitArguments values;
-  line.Argument("MARKERS", values.markers, "marker file of the take");
+  line.Argument("MARKERS", values.markers,
+                "marker file of the take, or the folder of a session's take");
   line.Flag("--binding", values.binding, "FILE", "the speaker's binding, from 'articap bind'");
   line.Flag("--map", values.map, "NAME|FILE",
             "marker map, where there is no binding: the take is bound by itself");
   line.Flag("--reference", values.reference, "FRAME|A:B|FILE",
             "the reference pose: frames of the take, or another take; else proposed");
   line.Flag("--rig", values.rig_folder, "DIR", "folder of a rig; else the default head");
-  line.Flag("--labels", values.labels, "FILE", "Praat TextGrid: the phone of every frame");
+  line.Flag("--labels", values.labels, "FILE",
+            "Praat TextGrid: the phone of every frame; else the take's own");
   line.Flag("--tier", values.tier, "NAME", "its tier of phones, where the name does not say so");
   line.Flag("--window", values.window, "A:B", "seconds that the page and the animation play");
   line.Flag("-o,--output", values.output, "DIR", "folder of the results")->required();
@@ -150,6 +168,8 @@ ExitCode FitCommand(const std::vector<std::string>& arguments) {
   line.Stage("stabilize", values.pipeline.stabilize, "stabilize");
   line.Stage("bind", values.pipeline.bind, "bind");
   if (const auto exit = line.Parse(arguments)) return *exit;
+  if (const Result<void> resolved = ResolveTake(values); !resolved)
+    return FailWith(resolved.error());
   if (const std::string wrong = WrongUsage(values); !wrong.empty())
     return FailWith(ExitCode::kWrongUsage, wrong);
   values.config = line.config_path();

@@ -15,6 +15,8 @@ namespace {
 // In the order of the data.
 const std::vector<articap::VerbEntry>& Verbs() {
   static const std::vector<articap::VerbEntry> verbs = {
+      {"session", "the recordings of a speaker on disk: new, import, info",
+       articap::SessionCommand},
       {"info", "what is in a marker file: markers, rate, frames, gaps, units",
        articap::InfoCommand},
       {"convert", "between marker formats", articap::ConvertCommand},

@@ -66,6 +66,19 @@ CLI::Option* VerbLine::Flag(const std::string& flags, std::string& value, const 
   return app_.add_option(flags, value, help)->type_name(type);
 }
 
+void VerbLine::Arguments(const std::string& name, std::vector<std::string>& values,
+                         const std::string& help) {
+  app_.add_option(name, values, help)
+      ->required()
+      ->type_name("")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+CLI::Option* VerbLine::Flag(const std::string& flags, double& value, const std::string& type,
+                            const std::string& help) {
+  return app_.add_option(flags, value, help)->type_name(type);
+}
+
 CLI::Option* VerbLine::Flag(const std::string& flags, bool& value, const std::string& help) {
   return app_.add_flag(flags, value, help);
 }

@@ -13,19 +13,12 @@
 
 #include "core/check.h"
 #include "core/file_io.h"
+#include "core/io/text.h"
 
 namespace articap {
 namespace {
 
 // Text encodings.
-
-bool IsUtf8(std::string_view bytes) {
-  // ICU replaces what is not UTF-8; text that comes back the same was UTF-8.
-  std::string back;
-  icu::UnicodeString::fromUTF8({bytes.data(), static_cast<int32_t>(bytes.size())})
-      .toUTF8String(back);
-  return back == bytes;
-}
 
 std::string ConvertToUtf8(std::string_view bytes, const char* encoding) {
   const icu::UnicodeString text(bytes.data(), static_cast<int32_t>(bytes.size()), encoding);
@@ -346,6 +339,16 @@ Result<TextGrid> ReadTextGrid(const std::filesystem::path& path) {
   const auto bytes = ReadFile(path);
   if (!bytes) return tl::unexpected(bytes.error());
   return ParseTextGrid(*bytes, path.string());
+}
+
+void ShiftTimes(TextGrid& grid, double shift_s) {
+  grid.start_s += shift_s;
+  grid.end_s += shift_s;
+  for (TextGridTier& tier : grid.tiers)
+    for (TextGridLabel& label : tier.labels) {
+      label.start_s += shift_s;
+      label.end_s += shift_s;
+    }
 }
 
 Result<const TextGridTier*> FindPhoneTier(const TextGrid& grid, std::string_view name) {

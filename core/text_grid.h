@@ -40,6 +40,9 @@ struct TextGrid {
 Result<TextGrid> ParseTextGrid(std::string_view bytes, const std::string& source_name);
 Result<TextGrid> ReadTextGrid(const std::filesystem::path& path);
 
+// Adds to every time.
+void ShiftTimes(TextGrid& grid, double shift_s);
+
 // The tier of that name; where the name is empty, the one interval tier whose name says phones
 // ("phones", "phone", "segments", "MAU", "Anna - phones", ...). The error names the tiers there
 // are.

@@ -68,6 +68,13 @@ int TomlReader::Integer(std::string_view key, int otherwise) const {
   return fits ? static_cast<int>(*value) : 0;
 }
 
+std::int64_t TomlReader::Integer64(std::string_view key) const {
+  const toml::node* node = table_.get(key);
+  const auto value = node ? node->value_exact<int64_t>() : std::nullopt;
+  if (!value) Fault(key, node ? "is not a whole number" : "is missing");
+  return value.value_or(0);
+}
+
 const toml::array* TomlReader::Array(std::string_view key) const {
   const toml::node* node = table_.get(key);
   if (!node) return nullptr;

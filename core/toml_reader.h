@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ class TomlReader {
   double Number(std::string_view key, double otherwise) const;
   int Integer(std::string_view key) const;
   int Integer(std::string_view key, int otherwise) const;
+  // Counts and times in ns, which an int does not hold.
+  std::int64_t Integer64(std::string_view key) const;
   Eigen::Vector3d Vector(std::string_view key) const;
   // Absent lists are empty.
   std::vector<std::string> Texts(std::string_view key) const;

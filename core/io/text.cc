@@ -2,6 +2,7 @@
 #include "core/io/text.h"
 
 #include <fmt/format.h>
+#include <unicode/unistr.h>
 
 #include <algorithm>
 #include <array>
@@ -93,6 +94,14 @@ std::string CleanText(std::string_view text, std::size_t max_bytes) {
     trimmed = Trim(trimmed.substr(0, end));
   }
   return std::string(trimmed);
+}
+
+bool IsUtf8(std::string_view bytes) {
+  // ICU replaces what is not UTF-8; text that comes back the same was UTF-8.
+  std::string back;
+  icu::UnicodeString::fromUTF8({bytes.data(), static_cast<int32_t>(bytes.size())})
+      .toUTF8String(back);
+  return back == bytes;
 }
 
 std::string Printable(std::string_view text) {

@@ -15,6 +15,7 @@ std::string ToLower(std::string_view text);
 // One line without control characters, trimmed, cut to `max_bytes` between UTF-8 characters: fit
 // for any format's text.
 std::string CleanText(std::string_view text, std::size_t max_bytes = 255);
+bool IsUtf8(std::string_view bytes);
 // For messages: cut to a line's length, control characters as '?'.
 std::string Printable(std::string_view text);
 

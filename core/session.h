@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/file_io.h"
+#include "core/result.h"
+
+namespace articap {
+
+// A session on disk, as recordings/README.md defines it to the byte: SESSION/session.toml,
+// SESSION/takes/<id>/take.toml with the raw files beside it, SESSION/derived/<id>/.
+
+inline constexpr const char* kSessionFileName = "session.toml";
+inline constexpr const char* kTakesFolderName = "takes";
+inline constexpr const char* kTakeFileName = "take.toml";
+
+// session.toml: what all takes share.
+struct SessionInfo {
+  std::string speaker;
+  // The marker map: the name of one that comes with articap, or a file of the session
+  // ("markers.toml"). Empty: not said.
+  std::string map;
+  std::string rig;    // a rig's folder in the session; empty: the default head
+  std::string notes;  // free text
+};
+
+enum class FileRole : std::uint8_t { kMarkers, kAudio, kLabels };
+const char* NameOf(FileRole role);  // "markers", "audio", "labels"
+
+// A raw file of a take.
+struct TakeFile {
+  FileRole role = FileRole::kMarkers;
+  std::string name;           // in the take's folder
+  FileDigest digest;          // of the bytes that were recorded, or imported
+  std::string original_name;  // before it was imported; any text
+  // Where the file's own time 0 lies on the session clock.
+  std::chrono::nanoseconds offset{0};
+  double rate_hz = 0;       // of the frames; labels have none
+  int markers = 0;          // of markers
+  int channels = 0;         // of audio
+  std::int64_t frames = 0;  // of markers and audio
+
+  double duration_s() const { return rate_hz > 0 ? static_cast<double>(frames) / rate_hz : 0; }
+};
+
+enum class TakeState : std::uint8_t { kComplete };
+
+// take.toml: what is in the folder of a take.
+struct TakeInfo {
+  std::string id;  // the folder's name
+  TakeState state = TakeState::kComplete;
+  // The instant, ns since 1970-01-01T00:00:00 UTC, at which the take's session clock is 0; nothing
+  // where it is not known, as of imported files.
+  std::optional<std::int64_t> clock_start_unix_ns;
+  std::vector<TakeFile> files;
+};
+
+// Parsing refuses, naming file and key, what it does not know, what contradicts itself, and names
+// that lead out of the folder. write(read(write(x))) equals write(x) byte for byte.
+Result<SessionInfo> ParseSessionInfo(const std::string& toml_text, const std::string& source_name);
+Result<SessionInfo> ReadSessionInfo(const std::filesystem::path& session_folder);
+std::string WriteSessionInfo(const SessionInfo& session);
+Result<TakeInfo> ParseTakeInfo(const std::string& toml_text, const std::string& source_name);
+std::string WriteTakeInfo(const TakeInfo& take);
+
+// Names of takes and their files: letters and digits of ASCII, '.', '_' and '-', the first a
+// letter, digit or '_', at most 100, so that they are the same on every system and never a path.
+bool IsSafeName(std::string_view name);
+// The same with '_' for every other character; "take" where nothing is left.
+std::string SafeNameOf(std::string_view name);
+
+// A take as it lies on disk.
+struct StoredTake {
+  TakeInfo info;
+  std::filesystem::path folder;  // absolute
+
+  std::filesystem::path PathOf(const TakeFile& file) const { return folder / file.name; }
+  std::vector<TakeFile> FilesOf(FileRole role) const;
+};
+
+// Whether a folder holds a take.toml, and what it says. Refused where the id is not the folder's
+// name.
+bool IsTakeFolder(const std::filesystem::path& folder);
+Result<StoredTake> OpenTake(const std::filesystem::path& folder);
+
+// What is wrong with a file of a take: that it is missing, of another size, or altered; nothing
+// where it is as it was.
+std::optional<std::string> FaultOf(const StoredTake& take, const TakeFile& file);
+// Of all its files, a sentence each.
+std::vector<std::string> VerifyTake(const StoredTake& take);
+
+// A session's folder, opened to be read; nothing in it is ever altered through this.
+class Recording {
+ public:
+  const std::filesystem::path& folder() const { return folder_; }  // absolute
+  const SessionInfo& info() const { return info_; }
+  // By id, numbers in them by value: take2 before take10.
+  const std::vector<StoredTake>& takes() const { return takes_; }
+  const StoredTake* Find(std::string_view take_id) const;
+  // Folders among the takes that hold no take.toml: imports that were cut short.
+  const std::vector<std::filesystem::path>& unfinished() const { return unfinished_; }
+
+ private:
+  friend Result<Recording> OpenSession(const std::filesystem::path& folder);
+
+  std::filesystem::path folder_;
+  SessionInfo info_;
+  std::vector<StoredTake> takes_;
+  std::vector<std::filesystem::path> unfinished_;
+};
+
+Result<Recording> OpenSession(const std::filesystem::path& folder);
+
+}  // namespace articap
