@@ -121,7 +121,9 @@ double RateOfTimes(const TimingClues& clues, std::vector<double>& steps,
   if (frames_before)
     if (const auto rate_hz = SimplestRate(clues, steps, frames_before)) return *rate_hz;
   if (const auto rate_hz = SimplestRate(clues, steps, std::nullopt)) return *rate_hz;
-  const double rate_hz = steps.back() / (clues.times_s.back() - clues.times_s.front());
+  // Seven digits are more than times that jitter tell, and are the same when they are read again.
+  const double mean_hz = steps.back() / (clues.times_s.back() - clues.times_s.front());
+  const double rate_hz = ParseNumber(fmt::format("{:.7g}", mean_hz)).value_or(mean_hz);
   WarnOfJitter(clues, steps, rate_hz, warnings);
   return rate_hz;
 }
