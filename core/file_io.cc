@@ -25,10 +25,8 @@ Result<FileDigest> ReadPieces(const std::filesystem::path& path,
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     return Fail(fmt::format("{}: is no file that can be read; check the path", path.string()));
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream)
-    return Fail(fmt::format("{}: cannot be opened ({}); check the path", path.string(),
-                            std::strerror(errno)));
+  Result<std::ifstream> stream = OpenFile(path);
+  if (!stream) return tl::unexpected(stream.error());
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
                                                                        XXH3_freeState);
   if (!state) throw std::bad_alloc();
@@ -36,14 +34,14 @@ Result<FileDigest> ReadPieces(const std::filesystem::path& path,
   constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
   std::vector<char> piece(kPieceBytes);
   FileDigest digest;
-  while (stream) {
-    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    const auto count = static_cast<std::size_t>(stream.gcount());
+  while (*stream) {
+    stream->read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    const auto count = static_cast<std::size_t>(stream->gcount());
     XXH3_64bits_update(state.get(), piece.data(), count);
     digest.size_bytes += static_cast<std::int64_t>(count);
     if (!take({piece.data(), count})) break;
   }
-  if (stream.bad()) return Fail(fmt::format("{}: reading failed half-way", path.string()));
+  if (stream->bad()) return Fail(fmt::format("{}: reading failed half-way", path.string()));
   digest.xxh3 = fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
   return digest;
 }
@@ -59,7 +57,7 @@ bool Sync(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<std::string> ReadFile(const std::filesystem::path& path) {
+Result<std::ifstream> OpenFile(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     return Fail(fmt::format("{}: is a folder, not a file; name a file in it", path.string()));
@@ -67,16 +65,23 @@ Result<std::string> ReadFile(const std::filesystem::path& path) {
   if (!stream)
     return Fail(fmt::format("{}: cannot be opened ({}); check the path", path.string(),
                             std::strerror(errno)));
+  return stream;
+}
+
+Result<std::string> ReadFile(const std::filesystem::path& path) {
+  Result<std::ifstream> stream = OpenFile(path);
+  if (!stream) return tl::unexpected(stream.error());
+  std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   std::string bytes;
   if (!error) {
     bytes.resize(size);
-    stream.read(bytes.data(), static_cast<std::streamsize>(size));
-    bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    stream->read(bytes.data(), static_cast<std::streamsize>(size));
+    bytes.resize(static_cast<std::size_t>(stream->gcount()));
   } else {  // a pipe
-    bytes.assign(std::istreambuf_iterator<char>(stream), {});
+    bytes.assign(std::istreambuf_iterator<char>(*stream), {});
   }
-  if (stream.bad()) return Fail(fmt::format("{}: reading failed half-way", path.string()));
+  if (stream->bad()) return Fail(fmt::format("{}: reading failed half-way", path.string()));
   return bytes;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,8 @@
 
 namespace articap {
 
+// For reading. A folder, and what cannot be opened, fails with the reason.
+Result<std::ifstream> OpenFile(const std::filesystem::path& path);
 Result<std::string> ReadFile(const std::filesystem::path& path);
 
 // Written beside the target under a temporary name and renamed, so that nobody ever finds half a

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <string_view>
-#include <system_error>
+
+#include "core/file_io.h"
 
 namespace articap {
 namespace {
@@ -218,14 +217,9 @@ Result<WavHeader> ParseWavHeader(std::istream& stream, const std::string& source
 }
 
 Result<WavHeader> ReadWavHeader(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    return Fail(fmt::format("{}: is a folder, not a file; name a file in it", path.string()));
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream)
-    return Fail(fmt::format("{}: cannot be opened ({}); check the path", path.string(),
-                            std::strerror(errno)));
-  return ParseWavHeader(stream, path.string());
+  Result<std::ifstream> stream = OpenFile(path);
+  if (!stream) return tl::unexpected(stream.error());
+  return ParseWavHeader(*stream, path.string());
 }
 
 }  // namespace articap

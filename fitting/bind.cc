@@ -300,6 +300,23 @@ std::vector<std::string> LandmarksLacking(const MarkerSet& set, const FaceRig& r
   return lacking;
 }
 
+// Why the orientation fit has less than three points: the rig lacks landmarks, or the pose markers.
+std::string TooFewStrategic(std::size_t num_pairs, const MarkerSet& set, const FaceRig& rig,
+                            const std::string& missing) {
+  const std::vector<std::string> lacking = LandmarksLacking(set, rig);
+  if (!lacking.empty())
+    return fmt::format(
+        "the rig '{}' has {} of the landmarks that the map's strategic markers sit at, and at "
+        "least "
+        "3 are needed; it lacks {}. Name them in the rig's recipe ('articap rig import --recipe', "
+        "docs/rigs.md)",
+        rig.definition().name, num_pairs, fmt::join(lacking, ", "));
+  return fmt::format(
+      "the reference pose has {} of the strategic markers that the orientation fit needs, at least "
+      "3{}; check that the map belongs to the recording, or mark others as strategic",
+      num_pairs, missing.empty() ? "" : " (missing: " + missing + ")");
+}
+
 }  // namespace
 
 void VisitOptions(BindOptions& options, OptionVisitor& visit) {
@@ -380,18 +397,7 @@ Result<StageResult<Binding>> Bind(const HeadTracks& reference, const HeadShape& 
   for (Eigen::Index k = 0; k < identity.size(); ++k) identity[k] = (*given_identity)[k].value_or(0);
   FaceRig own_rig = rig.WithIdentity(identity);
   std::vector<PointPair> pairs = StrategicPairs(points, own_rig, *pose);
-  if (const auto lacking = LandmarksLacking(set, rig); pairs.size() < 3 && !lacking.empty())
-    return Fail(
-        fmt::format("the rig '{}' has {} of the landmarks that the map's strategic markers sit at, "
-                    "and at least 3 are needed; it lacks {}. Name them in the rig's recipe "
-                    "('articap rig import --recipe', docs/rigs.md)",
-                    rig.definition().name, pairs.size(), fmt::join(lacking, ", ")));
-  if (pairs.size() < 3)
-    return Fail(
-        fmt::format("the reference pose has {} of the strategic markers that the orientation fit "
-                    "needs, at least "
-                    "3{}; check that the map belongs to the recording, or mark others as strategic",
-                    pairs.size(), missing.empty() ? "" : " (missing: " + missing + ")"));
+  if (pairs.size() < 3) return Fail(TooFewStrategic(pairs.size(), set, rig, missing));
   if (!missing.empty())
     report.warnings.push_back(
         fmt::format("strategic markers missing in the reference pose: {}", missing));

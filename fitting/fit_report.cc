@@ -127,6 +127,22 @@ std::optional<double> MarkerSigma_mm(const Eigen::MatrixXf& residuals_mm,
   return *middle / kMedianLength * std::sqrt(numbers / freedom);
 }
 
+// The rest of a sentence; empty where the parameters may be used.
+std::string WhyNotUsable(int num_fitted, int num_frames, int num_determined, double percent) {
+  if (num_determined == 0)
+    return ": the markers determine none; bring more, or allow more uncertainty "
+           "(--max-sigma-of-range, --marker-sigma-mm)";
+  if (2 * num_fitted < num_frames || num_fitted == 0)
+    return ": too few to go on with; see which markers are missing, and the head stabilisation's "
+           "report";
+  if (percent < 0)
+    return fmt::format(
+        "; the rig explains {:.1f} % of the movement: a face that stood still would come nearer. "
+        "The reference pose (--reference) is no face at rest, or markers are misnamed",
+        percent);
+  return "";
+}
+
 }  // namespace
 
 ExplainedVariance ExplainVariance(const ShapeFit& fit, const std::vector<bool>& judged,
@@ -233,8 +249,8 @@ double EstimateSigma(const ShapeFit& fit, const FrameFits& fits, const FitOption
   if (*estimate > kNoisierThanAssumed * options.marker_sigma_mm)
     report->warnings.push_back(fmt::format(
         "the residuals are those of {:.2f} mm a coordinate, and which parameters are determined "
-        "was "
-        "decided with {:.2f} mm: some are less certain than their range allows (see their sigmas). "
+        "was decided with {:.2f} mm: some are less certain than their range allows (see their "
+        "sigmas). "
         "The rig does not fit this face everywhere, or the markers are noisy; "
         "--marker-sigma-mm {:.2f} holds what is uncertain",
         *estimate, options.marker_sigma_mm, *estimate));
@@ -243,49 +259,33 @@ double EstimateSigma(const ShapeFit& fit, const FrameFits& fits, const FitOption
 
 void Judge(const ShapeFit& fit, const ExplainedVariance& explained, int num_determined,
            StageReport* report) {
-  const int num_frames = fit.parameters.num_frames();
-  int fitted = 0;
-  for (const double residual : fit.parameters.residuals_mm) fitted += std::isfinite(residual);
-  const double percent =
-      100 * (std::isfinite(explained.mouth_and_chin) ? explained.mouth_and_chin : explained.all);
-  report->verdict = fmt::format("{} of {} frames fitted with {} of {} parameters", fitted,
-                                num_frames, num_determined, fit.parameters.num_parameters());
-  report->usable = false;
-  if (num_determined == 0)
-    report->verdict +=
-        ": the markers determine none; bring more, or allow more uncertainty "
-        "(--max-sigma-of-range, --marker-sigma-mm)";
-  else if (2 * fitted < num_frames || fitted == 0)
-    report->verdict +=
-        ": too few to go on with; see which markers are missing, and the head "
-        "stabilisation's report";
-  else if (percent < 0)
-    report->verdict += fmt::format(
-        "; the rig explains {:.1f} % of the movement: a face that stood still would come nearer. "
-        "The "
-        "reference pose (--reference) is no face at rest, or markers are misnamed",
-        percent);
-  else
-    report->usable = true;
+  const bool has_mouth = std::isfinite(explained.mouth_and_chin);
+  const double percent = 100 * (has_mouth ? explained.mouth_and_chin : explained.all);
+  const auto num_fitted = std::ranges::count_if(
+      fit.parameters.residuals_mm, [](double residual) { return std::isfinite(residual); });
+  const std::string fitted =
+      fmt::format("{} of {} frames fitted with {} of {} parameters", num_fitted,
+                  fit.parameters.num_frames(), num_determined, fit.parameters.num_parameters());
+  const std::string why_not = WhyNotUsable(static_cast<int>(num_fitted),
+                                           fit.parameters.num_frames(), num_determined, percent);
+  report->usable = why_not.empty();
   if (!report->usable) {
-    report->verdict = "not usable: " + report->verdict;
-    return;
+    report->verdict = "not usable: " + fitted + why_not;
+  } else if (!std::isfinite(percent)) {
+    report->verdict =
+        fitted +
+        "; how much of the movement the rig explains was not judged: every frame served the "
+        "binding or the refinement, or no marker has freedom left";
+  } else {
+    report->verdict = fmt::format("{}; the rig explains {:.1f} % of the movement{}", fitted,
+                                  percent, has_mouth ? " of mouth and chin" : "");
+    if (percent < kLittleExplained)
+      report->warnings.push_back(fmt::format(
+          "the rig explains only {:.0f} % of the movement: refine where the markers sit "
+          "(--refine-frames 300), choose another reference pose (--reference), or see by the "
+          "residuals which markers do not fit",
+          percent));
   }
-  if (!std::isfinite(percent)) {
-    report->verdict +=
-        "; how much of the movement the rig explains was not judged: every frame "
-        "served the binding or the refinement, or no marker has freedom left";
-    return;
-  }
-  report->verdict +=
-      fmt::format("; the rig explains {:.1f} % of the movement{}", percent,
-                  std::isfinite(explained.mouth_and_chin) ? " of mouth and chin" : "");
-  if (percent < kLittleExplained)
-    report->warnings.push_back(fmt::format(
-        "the rig explains only {:.0f} % of the movement: refine where the markers sit "
-        "(--refine-frames 300), choose another reference pose (--reference), or see by the "
-        "residuals which markers do not fit",
-        percent));
 }
 
 }  // namespace articap

@@ -85,14 +85,15 @@ struct Remainder {
 };
 
 Remainder RemainderOf(const std::vector<Series>& stretches, const Sparse& penalty, double lambda) {
+  const Eigen::Index size = penalty.rows();  // of every stretch
+  const double taken_out = 1 - FreedomOf(size, lambda) / static_cast<double>(size);
   Remainder remainder;
   for (const Series& stretch : stretches) {
-    const Eigen::Index size = stretch.weights.size();
     const double known = static_cast<double>((stretch.weights.array() > 0).count());
     const Eigen::MatrixXd rest = stretch.values - Smooth(stretch, penalty, lambda);
     remainder.sum_of_squares += stretch.weights.dot(rest.rowwise().squaredNorm());
     remainder.count += known;
-    remainder.freedom += known * (1 - FreedomOf(size, lambda) / static_cast<double>(size));
+    remainder.freedom += known * taken_out;
   }
   return remainder;
 }
@@ -117,23 +118,28 @@ struct Outcome {
   double noise = 0;
 };
 
+// Those that cross-validation tries, as parts of the frame rate; a given one is the only one.
+std::vector<double> CutoffsToTry(double given) {
+  if (given > 0) return {given};
+  std::vector<double> cutoffs;
+  for (int i = 0; i < kNumCutoffs; ++i)
+    cutoffs.push_back(kLowestPoseCutoff * std::pow(kHighestPoseCutoff / kLowestPoseCutoff,
+                                                   static_cast<double>(i) / (kNumCutoffs - 1)));
+  return cutoffs;
+}
+
 Outcome SmoothSeries(double cutoff, Series* series) {
   const std::vector<Series> stretches = StretchesOf(*series);
   if (stretches.empty()) return {};
   const Sparse penalty = DifferencePenalty(stretches.front().weights.size());
   double best_criterion = std::numeric_limits<double>::infinity();
   Outcome outcome;
-  for (int i = 0; i < kNumCutoffs; ++i) {
-    const double part = static_cast<double>(i) / (kNumCutoffs - 1);
-    const double tried =
-        cutoff > 0 ? cutoff
-                   : kLowestPoseCutoff * std::pow(kHighestPoseCutoff / kLowestPoseCutoff, part);
+  for (const double tried : CutoffsToTry(cutoff)) {
     const Remainder remainder = RemainderOf(stretches, penalty, LambdaOf(tried));
     if (remainder.Criterion() < best_criterion) {
       best_criterion = remainder.Criterion();
       outcome = {tried, std::sqrt(remainder.Variance(series->values.cols()))};
     }
-    if (cutoff > 0) break;
   }
   if (!outcome.cutoff) return {};  // nothing but poses that are not numbers
   const bool nothing_to_gain = !(cutoff > 0) && *outcome.cutoff >= kHighestPoseCutoff;

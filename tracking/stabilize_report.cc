@@ -111,9 +111,8 @@ void ReportSearch(const RigidFindings& findings, StageReport& report) {
   report.texts.emplace_back("proposed_references", names);
   report.warnings.push_back(
       fmt::format("a better set of references is there: with --head {} (--stabilize-head in bind "
-                  "and fit) the skull's markers stand "
-                  "still to {:.2f} "
-                  "mm, with the chosen ones to {:.2f} mm",
+                  "and fit) the skull's markers stand still to {:.2f} mm, with the chosen ones to "
+                  "{:.2f} mm",
                   names, best.stillness_mm, chosen.stillness_mm));
 }
 

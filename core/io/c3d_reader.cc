@@ -237,8 +237,7 @@ void WarnOfGroups(const C3dParameters& parameters, std::vector<std::string>& war
   if (!right.empty() && !up.empty())
     warnings.push_back(
         fmt::format("POINT:X_SCREEN ({}) and Y_SCREEN ({}), the axes to the right and up on its "
-                    "maker's screen, "
-                    "were not kept.",
+                    "maker's screen, were not kept.",
                     Printable(right[0]), Printable(up[0])));
 }
 

@@ -20,6 +20,7 @@ namespace articap {
 namespace {
 
 constexpr int kMost16Bit = 65535;
+constexpr std::size_t kMostParameterBlocks = 255;
 constexpr int kMostResidualSteps = 255;
 
 // What the fourth word of a point says of it.
@@ -261,7 +262,6 @@ float C3dResidualStep(const MarkerRecording& recording) {
 }
 
 std::optional<std::string> C3dLimitExceeded(const MarkerRecording& recording) {
-  constexpr std::size_t kMostParameterBlocks = 255;
   if (recording.tracks.num_markers() > kMost16Bit)
     return fmt::format("{} markers; a C3D file holds at most {}", recording.tracks.num_markers(),
                        kMost16Bit);
@@ -281,6 +281,9 @@ std::string WriteC3d(const MarkerRecording& recording) {
   // The section's size does not depend on the number that it is asked to hold.
   const std::size_t num_parameter_blocks =
       FormatParameters(recording, status, 0).size() / kC3dBlockBytes;
+  ARTICAP_CHECK_LE(recording.tracks.num_markers(), kMost16Bit);
+  ARTICAP_CHECK_LE(AnalogPerFrame(recording.analog), kMost16Bit);
+  ARTICAP_CHECK_LE(num_parameter_blocks, kMostParameterBlocks);
   const int data_block = static_cast<int>(num_parameter_blocks) + 2;
   const std::size_t frame_bytes = 16 * static_cast<std::size_t>(recording.tracks.num_markers()) +
                                   4 * static_cast<std::size_t>(AnalogPerFrame(recording.analog));

@@ -134,7 +134,6 @@ std::string FormatMarkers(const MarkerRecording& recording, MarkerFormat format)
   const StageTracks& tracks = recording.tracks;
   const std::size_t num_samples =
       static_cast<std::size_t>(tracks.num_frames()) * tracks.num_markers();
-  ARTICAP_CHECK(!LimitExceeded(recording, format));
   ARTICAP_CHECK(recording.residuals_mm.empty() || recording.residuals_mm.size() == num_samples);
   ARTICAP_CHECK(recording.camera_masks.empty() || recording.camera_masks.size() == num_samples);
   ARTICAP_CHECK(recording.descriptions.empty() ||

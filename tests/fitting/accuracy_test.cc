@@ -12,11 +12,11 @@
 #include "core/marker_set.h"
 #include "fitting/bind.h"
 #include "fitting/fit.h"
-#include "rig/default_head/default_head.h"
 #include "rig/virtual_marker_evaluator.h"
 #include "synthetic/noise.h"
 #include "synthetic/speaker.h"
 #include "tests/support/result.h"
+#include "tests/support/spoken_take.h"
 #include "tests/support/test_data.h"
 #include "tracking/stabilize.h"
 
@@ -24,11 +24,6 @@ namespace articap {
 namespace {
 
 constexpr double kNoiseMm = 0.2;
-
-const FaceRig& DefaultHead() {
-  static const FaceRig rig = MakeDefaultHead().value();
-  return rig;
-}
 
 // Thirty markers on the face, five on the spectacles.
 const MarkerSet& Markers() {

@@ -5,13 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "fitting/reference_pose.h"
-#include "rig/default_head/default_head.h"
 #include "rig/virtual_marker_evaluator.h"
-#include "synthetic/noise.h"
-#include "synthetic/speaker.h"
 #include "tests/support/matchers.h"
 #include "tests/support/result.h"
-#include "tests/support/test_data.h"
+#include "tests/support/spoken_take.h"
 
 namespace articap {
 namespace {
@@ -19,29 +16,10 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const FaceRig& DefaultHead() {
-  static const FaceRig rig = MakeDefaultHead().value();
-  return rig;
-}
-
-struct Scene {
-  SyntheticTake take;
-  HeadTracks tracks;
-};
-
-// A sentence by a speaker of another shape and size, 0.2 mm of noise.
-const Scene& Speaker() {
-  static const Scene scene = [] {
-    const MarkerSet set = ReadMarkerSet(SourceFolder() / "maps" / "spectacles30.toml").value();
-    SyntheticTakeOptions options;
-    options.seed = 4;
-    options.speech.num_sentences = 2;
-    SyntheticTake take = SynthesizeTake(DefaultHead(), set, options).value();
-    const auto recorded = AddNoise(take.markers, {.noise_mm = 0.2}, 4);
-    HeadTracks tracks = ToHead(recorded.markers.tracks, take.true_pose);
-    return Scene{std::move(take), std::move(tracks)};
-  }();
-  return scene;
+// A speaker of another shape and size than the default head.
+const SpokenTake& Speaker() {
+  static const SpokenTake spoken = MakeSpokenTake({.seed = 4});
+  return spoken;
 }
 
 StageResult<Binding> BindSpeaker(const BindOptions& options) {

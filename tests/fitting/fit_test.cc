@@ -8,13 +8,11 @@
 
 #include "fitting/bind.h"
 #include "fitting/refinement.h"
-#include "rig/default_head/default_head.h"
 #include "rig/virtual_marker_evaluator.h"
-#include "synthetic/noise.h"
-#include "synthetic/speaker.h"
 #include "tests/support/matchers.h"
+#include "tests/support/report_figures.h"
 #include "tests/support/result.h"
-#include "tests/support/test_data.h"
+#include "tests/support/spoken_take.h"
 
 namespace articap {
 namespace {
@@ -22,46 +20,28 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-const FaceRig& DefaultHead() {
-  static const FaceRig rig = MakeDefaultHead().value();
-  return rig;
-}
-
-struct Scene {
-  SyntheticTake take;
-  HeadTracks tracks;
+struct BoundTake : SpokenTake {
   Binding binding;
 };
 
 // Four sentences, some 1100 frames, 0.4 mm of noise, true head pose.
-const Scene& Speaker() {
-  static const Scene scene = [] {
-    const MarkerSet set = ReadMarkerSet(SourceFolder() / "maps" / "spectacles30.toml").value();
-    SyntheticTakeOptions options;
-    options.seed = 6;
-    options.speech.num_sentences = 4;
-    options.identity_spread = 0;
-    SyntheticTake take = SynthesizeTake(DefaultHead(), set, options).value();
-    const auto recorded = AddNoise(take.markers, {.noise_mm = 0.4}, 6);
-    HeadTracks tracks = ToHead(recorded.markers.tracks, take.true_pose);
-    BindOptions bind;
-    bind.frames = "1:60";
-    bind.fit_identity = false;
-    Binding binding = OrThrow(Bind(tracks, {}, set, DefaultHead(), bind)).output;
-    return Scene{std::move(take), std::move(tracks), std::move(binding)};
+const BoundTake& Speaker() {
+  static const BoundTake bound = [] {
+    BoundTake speaker{
+        MakeSpokenTake({.seed = 6, .num_sentences = 4, .noise_mm = 0.4, .own_identity = false}),
+        {}};
+    BindOptions options;
+    options.frames = "1:60";
+    options.fit_identity = false;
+    speaker.binding =
+        OrThrow(Bind(speaker.tracks, {}, speaker.take.marker_set, DefaultHead(), options)).output;
+    return speaker;
   }();
-  return scene;
+  return bound;
 }
 
 StageResult<ShapeFit> FitSpeaker(const FitOptions& options, const FrameRange& binding_frames = {}) {
   return OrThrow(Fit(Speaker().tracks, Speaker().binding, DefaultHead(), options, binding_frames));
-}
-
-double FigureOf(const StageReport& report, const std::string& name) {
-  for (const auto& [figure, value] : report.figures)
-    if (figure == name) return value;
-  ADD_FAILURE() << "no figure " << name;
-  return 0;
 }
 
 // RMS error of every parameter over the take, as a part of its range.

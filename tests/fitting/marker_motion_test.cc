@@ -3,20 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "core/marker_set.h"
-#include "rig/default_head/default_head.h"
-#include "synthetic/speaker.h"
-#include "tests/support/test_data.h"
+#include "tests/support/spoken_take.h"
 
 namespace articap {
 namespace {
 
 TEST(MarkerMotionTest, MarkersOnTheSkullAreStillWhileTheHeadMoves) {
-  SyntheticTakeOptions options;
-  options.seed = 5;
-  options.speech.num_sentences = 2;
-  const MarkerSet set = ReadMarkerSet(SourceFolder() / "maps" / "spectacles30.toml").value();
-  const SyntheticTake take = SynthesizeTake(MakeDefaultHead().value(), set, options).value();
+  const SyntheticTake take = MakeSpokenTake({.seed = 5}).take;
   const MarkerMotion motion = MeasureMarkerMotion(take.markers.tracks);
   ASSERT_EQ(motion.markers.size(), 35u);
   EXPECT_TRUE(motion.left_out.empty());

@@ -9,6 +9,7 @@
 
 #include "core/alignment.h"
 #include "tests/support/matchers.h"
+#include "tests/support/report_figures.h"
 #include "tests/tracking/head_scene.h"
 
 namespace articap {
@@ -41,13 +42,6 @@ std::string ErrorOf(const StageTracks& tracks, const MarkerSet& set,
   const auto result = Stabilize(tracks, set, shape, options);
   EXPECT_FALSE(result) << "no error";
   return result ? "" : result.error().message;
-}
-
-double FigureOf(const StageReport& report, const std::string& name) {
-  for (const auto& [figure, value] : report.figures)
-    if (figure == name) return value;
-  ADD_FAILURE() << "no figure " << name;
-  return 0;
 }
 
 int CountStatus(const HeadPoseTrack& track, HeadPoseStatus status) {
