@@ -27,9 +27,23 @@ Eigen::Matrix2d DistortJacobian(const std::array<double, Lens::kNumDistortion>& 
   return jacobian;
 }
 
+// Whether the distortion is so small, at this radius and below, that the picture cannot fold: no
+// term can outweigh the undistorted 1. Most lenses are like that in most of their picture, and this
+// is quicker than looking closer.
+bool IsFarFromFold(const Lens& lens, const Eigen::Vector2d& point) {
+  const auto& k = lens.distortion;
+  if (k[5] != 0 || k[6] != 0 || k[7] != 0) return false;
+  const double r2 = point.squaredNorm();
+  const double radial =
+      r2 * (3 * std::abs(k[0]) + r2 * (5 * std::abs(k[1]) + r2 * 7 * std::abs(k[4])));
+  const double tangential = 6 * std::sqrt(r2) * (std::abs(k[2]) + std::abs(k[3]));
+  return radial + tangential < 0.9;
+}
+
 // Whether the picture is not yet folded back between the axis and this point of the plane Z = 1.
 bool IsBeforeFold(const Lens& lens, const Eigen::Vector2d& point) {
   constexpr int kSteps = 8;
+  if (IsFarFromFold(lens, point)) return true;
   for (int step = 1; step <= kSteps; ++step) {
     const Eigen::Vector2d between = point * (static_cast<double>(step) / kSteps);
     const Eigen::Matrix2d jacobian = DistortJacobian(lens.distortion, between);

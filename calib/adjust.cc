@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "calib/camera_blocks.h"
+#include "calib/cost_functions/corner_cost.h"
+#include "calib/network.h"
+#include "core/check.h"
+
+namespace articap {
+namespace {
+
+// The middle one of the three placements that follow one another in the least time and hold this
+// one; nothing where there are fewer than three.
+std::optional<int> MiddleOfTriple(const std::vector<Placement>& placements, int placement) {
+  std::optional<int> best;
+  double best_s = HUGE_VAL;
+  const int last = static_cast<int>(placements.size()) - 1;
+  for (int middle : {placement, placement - 1, placement + 1}) {
+    if (middle < 1 || middle > last - 1) continue;
+    const double span_s = placements[middle + 1].time_s - placements[middle - 1].time_s;
+    if (span_s < best_s) {
+      best_s = span_s;
+      best = middle;
+    }
+  }
+  return best;
+}
+
+// Where a corner goes between the placements next to it in time: through its three places runs a
+// parabola.
+PointMotion MotionOf(const Network& network, int placement, const Eigen::Vector3d& corner_mm) {
+  const std::optional<int> middle = MiddleOfTriple(network.placements, placement);
+  if (!middle) return {};
+  std::array<TimedPoint, 3> path;
+  for (int i = 0; i < 3; ++i) {
+    const Placement& at = network.placements[*middle - 1 + i];
+    path[i] = {at.time_s, at.stage_from_board * corner_mm};
+  }
+  return MotionThrough(path, network.placements[placement].time_s);
+}
+
+// Gives visit(sighting, cost, parameter blocks...) every corner of every sighting.
+template <class Visit>
+void VisitCorners(const Network& network, CameraBlocks& cameras, std::vector<PoseBlock>& placements,
+                  const Visit& visit) {
+  for (std::size_t index = 0; index < network.sightings.size(); ++index) {
+    const NetworkSighting& sighting = network.sightings[index];
+    double* const lens = cameras.lens(sighting.view.camera);
+    double* const pose = cameras.pose(sighting.view.camera);
+    double* const placement = placements[sighting.placement].data();
+    for (std::size_t i = 0; i < sighting.corners.size(); ++i) {
+      const Eigen::Vector3d corner = network.board.corner_in_board_mm(sighting.corners[i]);
+      const Eigen::Vector2d& seen_px = sighting.points_px[i];
+      if (sighting.view.mirror >= 0) {
+        const Mirror& mirror = cameras.mirror_info(sighting.view.mirror);
+        visit(index, MirroredCornerCost{corner, seen_px, mirror.glass_mm, mirror.glass_index}, lens,
+              pose, cameras.mirror(sighting.view.mirror), placement);
+      } else if (network.moving) {
+        PointMotion motion = MotionOf(network, sighting.placement, corner);
+        motion.shift_s = sighting.time_s - network.placements[sighting.placement].time_s;
+        visit(index, MovingCornerCost{corner, seen_px, motion}, lens, pose,
+              cameras.time_offset(sighting.view.camera), placement);
+      } else {
+        visit(index, DirectCornerCost{corner, seen_px}, lens, pose, placement);
+      }
+    }
+  }
+}
+
+std::vector<PoseBlock> PlacementBlocksOf(const Network& network) {
+  std::vector<PoseBlock> blocks;
+  for (const Placement& placement : network.placements)
+    blocks.push_back(ToBlock(placement.stage_from_board));
+  return blocks;
+}
+
+class NetworkProblem {
+ public:
+  NetworkProblem(const Network& network, const AdjustOptions& options)
+      : network_(network),
+        options_(options),
+        cameras_(network.array, options),
+        placements_(PlacementBlocksOf(network)) {
+    VisitCorners(
+        network, cameras_, placements_, [&](std::size_t, const auto& cost, auto*... blocks) {
+          problem_.AddResidualBlock(
+              cost.Create(),
+              options.huber_px > 0 ? new ceres::HuberLoss(options.huber_px) : nullptr, blocks...);
+        });
+    cameras_.Constrain(problem_);
+    for (PoseBlock& placement : placements_)
+      if (problem_.HasParameterBlock(placement.data())) {
+        AddPose(problem_, placement);
+        seen_placements_.push_back(placement.data());
+      }
+  }
+  NetworkProblem(const NetworkProblem&) = delete;
+  NetworkProblem& operator=(const NetworkProblem&) = delete;
+
+  ceres::Solver::Summary Solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    std::vector<double*> blocks;
+    problem_.GetParameterBlocks(&blocks);
+    for (double* block : blocks) options.linear_solver_ordering->AddElementToGroup(block, 1);
+    for (double* block : seen_placements_)
+      options.linear_solver_ordering->AddElementToGroup(block, 0);
+    options.max_num_iterations = options_.max_iterations;
+    options.num_threads = options_.num_threads;
+    options.function_tolerance = 1e-10;
+    options.parameter_tolerance = 1e-10;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    return summary;
+  }
+
+  Network Solution() const {
+    Network network = network_;
+    network.array = cameras_.Array();
+    for (std::size_t i = 0; i < placements_.size(); ++i)
+      network.placements[i].stage_from_board = FromBlock(placements_[i]);
+    return network;
+  }
+
+  // For residuals of unit variance; rotations as angles.
+  Eigen::MatrixXd Covariance() {
+    std::vector<std::vector<double*>> groups;
+    for (double* block : seen_placements_) groups.push_back({block});
+    return CovarianceOfCameras(problem_, cameras_, groups);
+  }
+
+  const std::vector<CameraParameter>& parameters() const { return cameras_.parameters(); }
+  int num_free() const {
+    return static_cast<int>(cameras_.parameters().size() + 6 * seen_placements_.size());
+  }
+
+ private:
+  const Network& network_;
+  const AdjustOptions& options_;
+  CameraBlocks cameras_;
+  std::vector<PoseBlock> placements_;
+  std::vector<double*> seen_placements_;
+  ceres::Problem problem_;
+};
+
+}  // namespace
+
+bool LensFreedom::any() const { return count() > 0; }
+
+int LensFreedom::count() const {
+  return focal + aspect + 2 * principal_point +
+         static_cast<int>(std::count(distortion.begin(), distortion.end(), true));
+}
+
+double RmsOf(const std::vector<Eigen::Vector2d>& residuals_px) {
+  double sum = 0;
+  for (const Eigen::Vector2d& residual : residuals_px) sum += residual.squaredNorm();
+  return std::sqrt(sum / static_cast<double>(residuals_px.size()));
+}
+
+double AdjustedNetwork::rms_px() const {
+  std::vector<Eigen::Vector2d> all;
+  for (const auto& residuals : residuals_px)
+    all.insert(all.end(), residuals.begin(), residuals.end());
+  return RmsOf(all);
+}
+
+std::vector<std::vector<Eigen::Vector2d>> ResidualsOf(const Network& network) {
+  CameraBlocks cameras(network.array, {});
+  std::vector<PoseBlock> placements = PlacementBlocksOf(network);
+  std::vector<std::vector<Eigen::Vector2d>> residuals(network.sightings.size());
+  VisitCorners(network, cameras, placements,
+               [&](std::size_t sighting, const auto& cost, auto*... blocks) {
+                 Eigen::Vector2d expected_less_seen = Eigen::Vector2d::Constant(NAN);
+                 cost(static_cast<const double*>(blocks)..., expected_less_seen.data());
+                 residuals[sighting].push_back(-expected_less_seen);
+               });
+  return residuals;
+}
+
+AdjustedNetwork Adjust(const Network& network, const AdjustOptions& options) {
+  NetworkProblem problem(network, options);
+  const ceres::Solver::Summary summary = problem.Solve();
+  AdjustedNetwork adjusted;
+  adjusted.network = problem.Solution();
+  adjusted.converged = summary.termination_type == ceres::CONVERGENCE;
+  adjusted.solver_message = summary.message;
+  adjusted.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
+  adjusted.solve_s = summary.total_time_in_seconds;
+  adjusted.residuals_px = ResidualsOf(adjusted.network);
+  adjusted.degrees_of_freedom = summary.num_residuals - problem.num_free();
+  adjusted.sigma_px = std::sqrt(2 * summary.final_cost / std::max(1, adjusted.degrees_of_freedom));
+  adjusted.parameters = problem.parameters();
+  adjusted.covariance = adjusted.sigma_px * adjusted.sigma_px * problem.Covariance();
+  FillSigmas(adjusted.parameters, adjusted.covariance, adjusted.network.array);
+  return adjusted;
+}
+
+}  // namespace articap

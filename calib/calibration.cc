@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "calib/calibration.h"
+
+#include <algorithm>
+
+#include "calib/planar_pose.h"
+
+namespace articap {
+namespace {
+
+// As the lens sees it that was made without it: the board's pose alone is fitted.
+std::vector<Eigen::Vector2d> ResidualsAlone(const BoardSpec& board, const Camera& camera,
+                                            const BoardSighting& sighting) {
+  const std::vector<PlanarPose> poses =
+      PlanarPosesOf(board, camera.lens, sighting.corners, sighting.points_px);
+  if (poses.empty()) return {};
+  Network network;
+  network.board = board;
+  network.array.cameras = {camera};
+  network.array.cameras[0].cam_from_stage = {};
+  network.placements = {{poses.front().cam_from_board, 0}};
+  network.sightings = {{{0, -1}, 0, 0, 0, sighting.corners, sighting.points_px}};
+  AdjustOptions options;
+  options.huber_px = 0.5;  // so that displaced corners show, and do not drag the others
+  return Adjust(network, options).residuals_px[0];
+}
+
+}  // namespace
+
+double Calibration::rms_px() const {
+  std::vector<Eigen::Vector2d> all;
+  for (const SightingResult& sighting : sightings)
+    if (sighting.used)
+      all.insert(all.end(), sighting.residuals_px.begin(), sighting.residuals_px.end());
+  return RmsOf(all);
+}
+
+Calibration MakeCalibration(const std::vector<CameraSightings>& inputs,
+                            const AdjustedNetwork& adjusted, const SetAside& set_aside) {
+  const Network& network = adjusted.network;
+  Calibration calibration;
+  calibration.array = network.array;
+  calibration.board = network.board;
+  calibration.placements = network.placements;
+  calibration.sigma_px = adjusted.sigma_px;
+  calibration.degrees_of_freedom = adjusted.degrees_of_freedom;
+  calibration.parameters = adjusted.parameters;
+  calibration.covariance = adjusted.covariance;
+  for (std::size_t i = 0; i < network.sightings.size(); ++i) {
+    const NetworkSighting& sighting = network.sightings[i];
+    calibration.sightings.push_back(
+        {.source = inputs[sighting.view.camera].sightings[sighting.input].source,
+         .view = sighting.view,
+         .placement = sighting.placement,
+         .corners = sighting.corners,
+         .points_px = sighting.points_px,
+         .residuals_px = adjusted.residuals_px[i]});
+  }
+  for (const auto& [key, reason] : set_aside) {
+    const BoardSighting& sighting = inputs[key.camera].sightings[key.sighting];
+    calibration.sightings.push_back(
+        {.source = sighting.source,
+         .view = {key.camera, -1},
+         .used = false,
+         .reason = reason,
+         .corners = sighting.corners,
+         .points_px = sighting.points_px,
+         .residuals_px =
+             ResidualsAlone(network.board, network.array.cameras[key.camera], sighting)});
+  }
+  std::stable_sort(calibration.sightings.begin(), calibration.sightings.end(),
+                   [](const SightingResult& a, const SightingResult& b) {
+                     return a.view.camera < b.view.camera;
+                   });
+  return calibration;
+}
+
+}  // namespace articap

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "calib/instants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <utility>
+
+namespace articap {
+namespace {
+
+// Between pictures that follow one another.
+double UsualInterval_s(const CameraSightings& camera) {
+  std::vector<double> intervals_s;
+  for (std::size_t i = 1; i < camera.sightings.size(); ++i) {
+    const double interval_s =
+        SecondsOf(camera.sightings[i].time) - SecondsOf(camera.sightings[i - 1].time);
+    if (interval_s > 0) intervals_s.push_back(interval_s);
+  }
+  if (intervals_s.empty()) return 1;
+  const auto middle = intervals_s.begin() + static_cast<std::ptrdiff_t>(intervals_s.size() / 2);
+  std::nth_element(intervals_s.begin(), middle, intervals_s.end());
+  return *middle;
+}
+
+}  // namespace
+
+InstantTable InstantsByFrame(const std::vector<CameraSightings>& cameras) {
+  std::set<std::int64_t> frames;
+  for (const CameraSightings& camera : cameras)
+    for (const BoardSighting& sighting : camera.sightings) frames.insert(sighting.frame);
+  InstantTable instants;
+  for (int camera = 0; camera < static_cast<int>(cameras.size()); ++camera)
+    for (int i = 0; i < static_cast<int>(cameras[camera].sightings.size()); ++i) {
+      const auto frame = frames.find(cameras[camera].sightings[i].frame);
+      instants[{camera, i}] = {static_cast<int>(std::distance(frames.begin(), frame)), 0};
+    }
+  return instants;
+}
+
+InstantTable InstantsByTime(const std::vector<CameraSightings>& cameras) {
+  const CameraSightings& first = cameras.front();
+  const double start_s = SecondsOf(first.sightings.front().time);
+  const double interval_s = UsualInterval_s(first);
+  std::map<SightingKey, std::int64_t> steps;
+  for (int camera = 0; camera < static_cast<int>(cameras.size()); ++camera)
+    for (int i = 0; i < static_cast<int>(cameras[camera].sightings.size()); ++i)
+      steps[{camera, i}] =
+          std::llround((SecondsOf(cameras[camera].sightings[i].time) - start_s) / interval_s);
+  std::set<std::int64_t> used;
+  for (const auto& [key, step] : steps) used.insert(step);
+  InstantTable instants;
+  for (const auto& [key, step] : steps)
+    instants[key] = {static_cast<int>(std::distance(used.begin(), used.find(step))),
+                     start_s + static_cast<double>(step) * interval_s};
+  return instants;
+}
+
+}  // namespace articap

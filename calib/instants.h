@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "calib/calibration.h"
+
+namespace articap {
+
+// When a sighting was made: sightings of one instant show the board in one place.
+struct Instant {
+  int number = 0;     // from 0, in order of time
+  double time_s = 0;  // on the clock of the array
+};
+// Sightings without an instant are not used.
+using InstantTable = std::map<SightingKey, Instant>;
+
+// Sightings with the same frame number show the same instant.
+InstantTable InstantsByFrame(const std::vector<CameraSightings>& cameras);
+
+// For cameras that are not synchronous: the first camera's clock, divided into its usual intervals;
+// each picture belongs to the nearest instant by its own camera's clock.
+InstantTable InstantsByTime(const std::vector<CameraSightings>& cameras);
+
+}  // namespace articap

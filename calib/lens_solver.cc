@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "calib/lens_solver.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "calib/held_out.h"
+#include "calib/planar_pose.h"
+#include "calib/view_screening.h"
+
+namespace articap {
+namespace {
+
+// Chi-square of 1, 2 and 3 degrees of freedom that pure noise exceeds once in 370 times (3 sigmas).
+constexpr std::array<double, 4> kSignificant = {0, 9.0, 11.83, 14.16};
+
+// What each model adds to the one before.
+std::vector<int> AddedBy(LensModel model) {
+  switch (model) {
+    case LensModel::kPinhole:
+      return {};
+    case LensModel::kK1:
+      return {Lens::kK1};
+    case LensModel::kK1K2:
+      return {Lens::kK2};
+    case LensModel::kBrown4:
+      return {Lens::kP1, Lens::kP2};
+    case LensModel::kBrown5:
+      return {Lens::kK3};
+    case LensModel::kRational:
+      return {Lens::kK4, Lens::kK5, Lens::kK6};
+  }
+  return {};
+}
+
+LensModel Below(LensModel model) { return static_cast<LensModel>(static_cast<int>(model) - 1); }
+
+std::vector<int> AllSightings(const CameraSightings& camera) {
+  std::vector<int> all(camera.sightings.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+// The camera before anything is known but its focal length.
+Camera StartCamera(const CameraSightings& camera, double focal_px) {
+  Camera start;
+  start.name = camera.camera;
+  start.width = camera.width;
+  start.height = camera.height;
+  start.lens = {focal_px, focal_px, (camera.width - 1) / 2.0, (camera.height - 1) / 2.0, {}};
+  return start;
+}
+
+// A placement for every sighting whose pose can be found.
+Network PlaceSightings(const BoardSpec& board, const CameraSightings& input, const Camera& camera,
+                       const std::vector<int>& which) {
+  Network network;
+  network.board = board;
+  network.array.cameras = {camera};
+  for (int index : which) {
+    const BoardSighting& sighting = input.sightings[index];
+    const std::vector<PlanarPose> poses =
+        PlanarPosesOf(board, camera.lens, sighting.corners, sighting.points_px);
+    if (poses.empty()) continue;
+    network.sightings.push_back({{0, -1},
+                                 static_cast<int>(network.placements.size()),
+                                 0,
+                                 index,
+                                 sighting.corners,
+                                 sighting.points_px});
+    network.placements.push_back({poses.front().cam_from_board, 0});
+  }
+  return network;
+}
+
+AdjustOptions OptionsFor(const LensFreedom& freedom, double huber_px, int max_iterations = 100) {
+  AdjustOptions options;
+  options.lenses = {freedom};
+  options.huber_px = huber_px;
+  options.max_iterations = max_iterations;
+  return options;
+}
+
+// A pinhole with a little radial distortion, from nothing: from the homographies' focal length, or,
+// where they are of no help, from the best of several guesses.
+Result<AdjustedNetwork> StartFromNothing(const BoardSpec& board, const CameraSightings& input) {
+  std::vector<PlaneView> views;
+  for (const BoardSighting& sighting : input.sightings)
+    views.push_back({&sighting.corners, &sighting.points_px});
+  const Camera centred = StartCamera(input, 1);
+  const auto focal_px = FocalLengthOf_px(board, views, {centred.lens.cx_px, centred.lens.cy_px});
+  std::vector<double> guesses_px;
+  if (focal_px) guesses_px = {*focal_px};
+  const double size_px = std::max(input.width, input.height);
+  if (!focal_px || *focal_px < 0.2 * size_px || *focal_px > 20 * size_px)
+    for (double factor : {0.6, 1.0, 1.7, 3.0}) guesses_px.push_back(factor * size_px);
+
+  LensFreedom freedom;
+  freedom.focal = true;
+  freedom.distortion[Lens::kK1] = true;
+  std::optional<AdjustedNetwork> best;
+  for (double guess_px : guesses_px) {
+    const Network network =
+        PlaceSightings(board, input, StartCamera(input, guess_px), AllSightings(input));
+    if (network.sightings.empty()) continue;
+    AdjustedNetwork adjusted = Adjust(network, OptionsFor(freedom, 1, 15));
+    if (!best || MedianOf(adjusted.residuals_px) < MedianOf(best->residuals_px))
+      best = std::move(adjusted);
+  }
+  if (!best)
+    return Fail(
+        fmt::format("{}: in none of the {} pictures do the corners make a plane; are the "
+                    "board's numbers right?",
+                    input.camera, input.sightings.size()));
+  return *std::move(best);
+}
+
+// Whether the coefficients that the model adds differ from 0 by more than their noise.
+bool IsSupported(const AdjustedNetwork& adjusted, LensModel model) {
+  std::vector<int> columns;
+  std::vector<double> values;
+  for (int coefficient : AddedBy(model))
+    for (int i = 0; i < static_cast<int>(adjusted.parameters.size()); ++i)
+      if (adjusted.parameters[i] ==
+          CameraParameter{CameraParameter::Kind::kDistortion, 0, coefficient}) {
+        columns.push_back(i);
+        values.push_back(adjusted.network.array.cameras[0].lens.distortion[coefficient]);
+      }
+  const int count = static_cast<int>(columns.size());
+  Eigen::MatrixXd covariance(count, count);
+  for (int a = 0; a < count; ++a)
+    for (int b = 0; b < count; ++b) covariance(a, b) = adjusted.covariance(columns[a], columns[b]);
+  if (!covariance.allFinite()) return false;
+  const Eigen::Map<const Eigen::VectorXd> value(values.data(), count);
+  return value.dot(covariance.ldlt().solve(value)) > kSignificant[count];
+}
+
+// The network again, without the coefficients that a simpler model does not have.
+Network WithModel(Network network, LensModel model, const LensOptions& options) {
+  const LensFreedom freedom = FreedomOf(model, options);
+  auto& distortion = network.array.cameras[0].lens.distortion;
+  for (int i = 0; i < Lens::kNumDistortion; ++i)
+    if (!freedom.distortion[i]) distortion[i] = 0;
+  return network;
+}
+
+// Leaves out what the views do not support, from the richest coefficients down.
+void Simplify(SolvedLens& solved, const LensOptions& options, double huber_px) {
+  while (solved.model != LensModel::kPinhole && !IsSupported(solved.adjusted, solved.model)) {
+    solved.model = Below(solved.model);
+    solved.adjusted = Adjust(WithModel(solved.adjusted.network, solved.model, options),
+                             OptionsFor(FreedomOf(solved.model, options), huber_px));
+  }
+}
+
+double HuberFor_px(const AdjustedNetwork& adjusted, const LensOptions& options) {
+  // Perfect pictures, as tests make them, have no residuals to take a scale from.
+  constexpr double kLeast_px = 1e-3;
+  return options.huber_sigmas == 0
+             ? 0
+             : std::max(kLeast_px, options.huber_sigmas * RobustSigmaOf(adjusted.residuals_px));
+}
+
+// The full model on the sightings that are kept, and which of them do not fit.
+AdjustedNetwork SolveFullModel(const BoardSpec& board, const CameraSightings& input,
+                               const Camera& start, const std::vector<int>& kept,
+                               const LensOptions& options) {
+  const LensModel model = std::min(options.model, LensModel::kBrown5);
+  const LensFreedom freedom = FreedomOf(model, options);
+  const Network network = PlaceSightings(board, input, start, kept);
+  const double first_huber_px = options.huber_sigmas == 0 ? 0 : 1;
+  AdjustedNetwork adjusted =
+      Adjust(WithModel(network, model, options), OptionsFor(freedom, first_huber_px));
+  // Now that the lens is known, a board may turn out to stand in its other pose.
+  const Network again = PlaceSightings(board, input, adjusted.network.array.cameras[0], kept);
+  return Adjust(again, OptionsFor(freedom, HuberFor_px(adjusted, options)));
+}
+
+Result<Camera> StartOf(const BoardSpec& board, const CameraSightings& camera) {
+  if (camera.sightings.empty())
+    return Fail(fmt::format("{}: in no picture is there a board to calibrate from", camera.camera));
+  if (camera.lens) {
+    Camera start = StartCamera(camera, 1);
+    start.lens = *camera.lens;
+    return start;
+  }
+  const Result<AdjustedNetwork> from_nothing = StartFromNothing(board, camera);
+  if (!from_nothing) return tl::unexpected(from_nothing.error());
+  return from_nothing->network.array.cameras[0];
+}
+
+// Solves, and sets aside what does not fit the rest, until everything does.
+SetAside SolveAndScreen(const BoardSpec& board, const CameraSightings& camera, const Camera& start,
+                        const LensOptions& options, AdjustedNetwork& adjusted) {
+  constexpr int kMostRounds = 3;
+  SetAside set_aside;
+  Camera from = start;
+  for (int round = 0;; ++round) {
+    std::vector<int> kept;
+    for (int index : AllSightings(camera))
+      if (!set_aside.contains({0, index})) kept.push_back(index);
+    adjusted = SolveFullModel(board, camera, from, kept, options);
+    if (!options.set_views_aside || round == kMostRounds) return set_aside;
+    const std::vector<BadSighting> bad = ScreenSightings(adjusted);
+    if (bad.empty()) return set_aside;
+    for (const BadSighting& sighting : bad)
+      set_aside[{0, adjusted.network.sightings[sighting.sighting].input}] = sighting.reason;
+    from = adjusted.network.array.cameras[0];
+  }
+}
+
+// Whether the lens still maps the whole picture one to one.
+bool ShowsWholePicture(const Camera& camera) {
+  for (double x : {0.0, 0.5, 1.0})
+    for (double y : {0.0, 0.5, 1.0})
+      if (!Unproject(camera.lens, {x * (camera.width - 1), y * (camera.height - 1)})) return false;
+  return true;
+}
+
+// The rational model needs views that reach into the corners of a wide lens; where they do not, its
+// numerator and denominator cancel and wander off together.
+void TryRational(SolvedLens& solved, const LensOptions& options) {
+  const double huber_px = HuberFor_px(solved.adjusted, options);
+  AdjustedNetwork rational = Adjust(solved.adjusted.network,
+                                    OptionsFor(FreedomOf(LensModel::kRational, options), huber_px));
+  const double before_px = HeldOutRms_px(solved.adjusted.network, FreedomOf(solved.model, options));
+  const double after_px = HeldOutRms_px(rational.network, FreedomOf(LensModel::kRational, options));
+  std::string against;
+  if (!rational.converged || !std::isfinite(rational.sigma_px))
+    against = "it does not converge";
+  else if (!IsSupported(rational, LensModel::kRational))
+    against = "its coefficients k4, k5, k6 do not differ from 0 by more than their noise";
+  else if (!ShowsWholePicture(rational.network.array.cameras[0]))
+    against = "it folds the picture over within its edges";
+  else if (!(after_px < 0.99 * before_px))
+    against = fmt::format("on held-out views its residuals are {:.3f} px, without it {:.3f}",
+                          after_px, before_px);
+  if (!against.empty()) {
+    solved.warnings.push_back(
+        fmt::format("the rational model is refused: {}; take more pictures with the board in the "
+                    "corners of the picture, or do without it",
+                    against));
+    return;
+  }
+  solved.model = LensModel::kRational;
+  solved.adjusted = std::move(rational);
+}
+
+}  // namespace
+
+LensFreedom FreedomOf(LensModel model, const LensOptions& options) {
+  LensFreedom freedom;
+  freedom.focal = true;
+  freedom.aspect = !options.fixed_aspect;
+  freedom.principal_point = !options.fixed_principal_point;
+  for (LensModel part = model; part != LensModel::kPinhole; part = Below(part))
+    for (int coefficient : AddedBy(part)) freedom.distortion[coefficient] = true;
+  return freedom;
+}
+
+Result<SolvedLens> SolveLens(const BoardSpec& board, const CameraSightings& camera,
+                             const LensOptions& options) {
+  const Result<Camera> start = StartOf(board, camera);
+  if (!start) return tl::unexpected(start.error());
+  SolvedLens solved;
+  solved.model = std::min(options.model, LensModel::kBrown5);
+  solved.set_aside = SolveAndScreen(board, camera, *start, options, solved.adjusted);
+  if (3 * solved.set_aside.size() > camera.sightings.size()) {
+    const auto& [first, reason] = *solved.set_aside.begin();
+    return Fail(fmt::format(
+        "{}: {} of {} pictures do not fit the others, {} among them ({}); record the board anew",
+        camera.camera, solved.set_aside.size(), camera.sightings.size(),
+        camera.sightings[first.sighting].source, reason));
+  }
+  if (options.simplify) Simplify(solved, options, HuberFor_px(solved.adjusted, options));
+  if (options.model == LensModel::kRational) TryRational(solved, options);
+  return solved;
+}
+
+}  // namespace articap

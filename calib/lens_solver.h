@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/calibration.h"
+#include "calib/lens_calibration.h"
+#include "core/result.h"
+
+namespace articap {
+
+// The coefficients of a model.
+LensFreedom FreedomOf(LensModel model, const LensOptions& options);
+
+struct SolvedLens {
+  AdjustedNetwork adjusted;  // one camera; one placement a sighting that was kept
+  LensModel model = LensModel::kBrown5;
+  SetAside set_aside;
+  std::vector<std::string> warnings;
+};
+
+// The lens alone, without figures on held-out views: what CalibrateLens() reports on and camera
+// rigs start from.
+Result<SolvedLens> SolveLens(const BoardSpec& board, const CameraSightings& camera,
+                             const LensOptions& options);
+
+}  // namespace articap

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "calib/rig_calibration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "calib/calibration_report.h"
+#include "calib/held_out.h"
+#include "calib/instants.h"
+#include "calib/lens_solver.h"
+#include "calib/planar_pose.h"
+#include "calib/pose_graph.h"
+#include "calib/view_screening.h"
+
+namespace articap {
+namespace {
+
+// The cameras one by one, before anything is known of where they stand.
+struct StartingCameras {
+  std::vector<Camera> cameras;
+  std::vector<LensFreedom> freedoms;
+  SetAside set_aside;
+  std::vector<std::string> warnings;
+};
+
+Result<void> RefuseUnusable(const BoardSpec& board, const std::vector<CameraSightings>& cameras) {
+  if (cameras.size() < 2)
+    return Fail("a rig has two cameras or more; for one, use 'articap calibrate lens'");
+  if (board.is_ambiguous())
+    return Fail(fmt::format(
+        "{} looks the same upside down, so that cameras cannot agree which corner is which; use a "
+        "board with an even number of corners one way and an odd one the other, or a ChArUco board",
+        NameOf(board)));
+  std::string empty;
+  for (const CameraSightings& camera : cameras)
+    if (camera.sightings.empty()) empty += (empty.empty() ? "" : ", ") + camera.camera;
+  if (!empty.empty())
+    return Fail(fmt::format("{}: no picture shows the board; record again, or leave the camera out",
+                            empty));
+  return {};
+}
+
+Result<StartingCameras> SolveLenses(const BoardSpec& board,
+                                    const std::vector<CameraSightings>& inputs,
+                                    const LensOptions& lens_options, const RigOptions& options) {
+  StartingCameras start;
+  for (int index = 0; index < static_cast<int>(inputs.size()); ++index) {
+    const CameraSightings& input = inputs[index];
+    if (input.lens && !options.adjust_lenses) {
+      start.cameras.push_back({.name = input.camera,
+                               .width = input.width,
+                               .height = input.height,
+                               .lens = *input.lens});
+      start.freedoms.emplace_back();
+      continue;
+    }
+    Result<SolvedLens> solved = SolveLens(board, input, lens_options);
+    if (!solved) return tl::unexpected(solved.error());
+    start.cameras.push_back(solved->adjusted.network.array.cameras[0]);
+    start.freedoms.push_back(FreedomOf(solved->model, lens_options));
+    for (auto& [key, reason] : solved->set_aside) start.set_aside[{index, key.sighting}] = reason;
+    for (const std::string& warning : solved->warnings)
+      start.warnings.push_back(input.camera + ": " + warning);
+  }
+  return start;
+}
+
+// Every sighting that is kept, with the poses that its lens allows.
+std::vector<PlacedSighting> PlaceSightings(const BoardSpec& board,
+                                           const std::vector<CameraSightings>& inputs,
+                                           const InstantTable& instants,
+                                           const StartingCameras& start) {
+  std::vector<PlacedSighting> placed;
+  for (int camera = 0; camera < static_cast<int>(inputs.size()); ++camera)
+    for (int index = 0; index < static_cast<int>(inputs[camera].sightings.size()); ++index) {
+      const SightingKey key{camera, index};
+      const auto instant = instants.find(key);
+      if (start.set_aside.contains(key) || instant == instants.end()) continue;
+      const BoardSighting& sighting = inputs[camera].sightings[index];
+      std::vector<Rigid3d> poses;
+      for (const PlanarPose& pose :
+           PlanarPosesOf(board, start.cameras[camera].lens, sighting.corners, sighting.points_px))
+        poses.push_back(pose.cam_from_board);
+      if (!poses.empty()) placed.push_back({key, instant->second, poses, &sighting});
+    }
+  return placed;
+}
+
+double HuberFor_px(const AdjustedNetwork& adjusted, double sigmas) {
+  constexpr double kLeast_px = 1e-3;
+  return sigmas == 0 ? 0 : std::max(kLeast_px, sigmas * RobustSigmaOf(adjusted.residuals_px));
+}
+
+// The motion that a moving network assumes comes from the placements that an adjustment starts
+// from: a few rounds, until the offsets stand still.
+AdjustedNetwork AdjustMoving(Network network, const AdjustOptions& options) {
+  constexpr int kMostRounds = 6;
+  constexpr double kStill_s = 1e-6;
+  for (int round = 0;; ++round) {
+    AdjustedNetwork adjusted = Adjust(network, options);
+    double change_s = 0;
+    for (std::size_t i = 0; i < network.array.cameras.size(); ++i)
+      change_s = std::max(change_s, std::abs(adjusted.network.array.cameras[i].time_offset_s -
+                                             network.array.cameras[i].time_offset_s));
+    if (!options.free_time_offsets || change_s < kStill_s || round == kMostRounds) return adjusted;
+    network = adjusted.network;
+  }
+}
+
+// Adjusts, and sets aside what does not fit the rest, until everything does.
+AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const RigOptions& options,
+                                SetAside& set_aside) {
+  constexpr int kMostRounds = 3;
+  adjust.huber_px = options.huber_sigmas == 0 ? 0 : 1;
+  AdjustedNetwork adjusted = AdjustMoving(std::move(network), adjust);
+  for (int round = 0;; ++round) {
+    adjust.huber_px = HuberFor_px(adjusted, options.huber_sigmas);
+    adjusted = AdjustMoving(adjusted.network, adjust);
+    if (!options.set_views_aside || round == kMostRounds) return adjusted;
+    const std::vector<BadSighting> bad = ScreenSightings(adjusted);
+    if (bad.empty()) return adjusted;
+    for (auto sighting = bad.rbegin(); sighting != bad.rend(); ++sighting) {
+      auto& all = adjusted.network.sightings;
+      const NetworkSighting& removed = all[sighting->sighting];
+      set_aside[{removed.view.camera, removed.input}] = sighting->reason;
+      all.erase(all.begin() + sighting->sighting);
+    }
+  }
+}
+
+}  // namespace
+
+void VisitOptions(RigOptions& options, OptionVisitor& visit) {
+  visit("adjust_lenses", options.adjust_lenses,
+        "adjust lenses that were calibrated before along with the rest; false: hold them");
+  visit("free_time_offsets", options.free_time_offsets,
+        "the cameras are not synchronous: estimate each one's offset from the moving board");
+  visit("huber_sigmas", options.huber_sigmas,
+        "corners off by more standard deviations count less; 0: plain least squares");
+  visit("set_views_aside", options.set_views_aside, "leave out views that do not fit the others");
+  visit("max_rms_px", options.max_rms_px, "not usable with larger residuals; px");
+  visit("max_rigidity_mm", options.max_rigidity_mm,
+        "not usable with larger errors of distances on held-out views; mm");
+}
+
+Result<StageResult<Calibration>> CalibrateRig(const BoardSpec& board,
+                                              const std::vector<CameraSightings>& cameras,
+                                              const LensOptions& lens_options,
+                                              const RigOptions& options) {
+  if (const auto usable = RefuseUnusable(board, cameras); !usable)
+    return tl::unexpected(usable.error());
+  Result<StartingCameras> start = SolveLenses(board, cameras, lens_options, options);
+  if (!start) return tl::unexpected(start.error());
+  const InstantTable instants =
+      options.free_time_offsets ? InstantsByTime(cameras) : InstantsByFrame(cameras);
+  Result<Network> network =
+      LinkCameras(board, start->cameras, PlaceSightings(board, cameras, instants, *start));
+  if (!network) return tl::unexpected(network.error());
+  network->moving = options.free_time_offsets;
+
+  AdjustOptions adjust;
+  adjust.lenses = start->freedoms;
+  adjust.free_time_offsets = options.free_time_offsets;
+  SetAside set_aside = std::move(start->set_aside);
+  const AdjustedNetwork adjusted = AdjustAndScreen(*std::move(network), adjust, options, set_aside);
+  Calibration calibration = MakeCalibration(cameras, adjusted, set_aside);
+  if (!options.free_time_offsets)
+    calibration.held_out = HeldOutRigidity(adjusted.network, adjust, adjusted.sigma_px);
+  StageReport report =
+      DescribeCalibration("calibrate rig", calibration,
+                          {.max_rms_px = options.max_rms_px,
+                           .max_focal_sigma_percent = lens_options.max_focal_sigma_percent,
+                           .max_rigidity_mm = options.max_rigidity_mm});
+  report.warnings.insert(report.warnings.begin(), start->warnings.begin(), start->warnings.end());
+  report.options = EchoOptions(options);
+  return StageResult<Calibration>{std::move(calibration), std::move(report)};
+}
+
+}  // namespace articap
