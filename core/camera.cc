@@ -9,24 +9,6 @@
 namespace articap {
 namespace {
 
-// Derivative of Distort().
-Eigen::Matrix2d DistortJacobian(const std::array<double, Lens::kNumDistortion>& k,
-                                const Eigen::Vector2d& point) {
-  const double x = point.x(), y = point.y();
-  const double r2 = x * x + y * y;
-  const double above = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-  const double below = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
-  const double above_r2 = k[0] + r2 * (2 * k[1] + r2 * 3 * k[4]);
-  const double below_r2 = k[5] + r2 * (2 * k[6] + r2 * 3 * k[7]);
-  const double radial = above / below;
-  const double radial_r2 = (above_r2 - radial * below_r2) / below;
-  const double mixed = 2 * (radial_r2 * x * y + k[2] * x + k[3] * y);
-  Eigen::Matrix2d jacobian;
-  jacobian << radial + 2 * radial_r2 * x * x + 2 * k[2] * y + 6 * k[3] * x, mixed, mixed,
-      radial + 2 * radial_r2 * y * y + 6 * k[2] * y + 2 * k[3] * x;
-  return jacobian;
-}
-
 // Whether the distortion is so small, at this radius and below, that the picture cannot fold: no
 // term can outweigh the undistorted 1. Most lenses are like that in most of their picture, and this
 // is quicker than looking closer.
@@ -46,13 +28,29 @@ bool IsBeforeFold(const Lens& lens, const Eigen::Vector2d& point) {
   if (IsFarFromFold(lens, point)) return true;
   for (int step = 1; step <= kSteps; ++step) {
     const Eigen::Vector2d between = point * (static_cast<double>(step) / kSteps);
-    const Eigen::Matrix2d jacobian = DistortJacobian(lens.distortion, between);
+    const Eigen::Matrix2d jacobian = DistortJacobian(lens.distortion.data(), between);
     if (!(jacobian.determinant() > 0) || !(jacobian.trace() > 0)) return false;
   }
   return true;
 }
 
 }  // namespace
+
+Eigen::Matrix2d DistortJacobian(const double* k, const Eigen::Vector2d& point) {
+  const double x = point.x(), y = point.y();
+  const double r2 = x * x + y * y;
+  const double above = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+  const double below = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
+  const double above_r2 = k[0] + r2 * (2 * k[1] + r2 * 3 * k[4]);
+  const double below_r2 = k[5] + r2 * (2 * k[6] + r2 * 3 * k[7]);
+  const double radial = above / below;
+  const double radial_r2 = (above_r2 - radial * below_r2) / below;
+  const double mixed = 2 * (radial_r2 * x * y + k[2] * x + k[3] * y);
+  Eigen::Matrix2d jacobian;
+  jacobian << radial + 2 * radial_r2 * x * x + 2 * k[2] * y + 6 * k[3] * x, mixed, mixed,
+      radial + 2 * radial_r2 * y * y + 6 * k[2] * y + 2 * k[3] * x;
+  return jacobian;
+}
 
 std::optional<Eigen::Vector2d> Project(const Lens& lens, const Eigen::Vector3d& point_in_cam_mm) {
   if (!(point_in_cam_mm.z() > 0)) return std::nullopt;
@@ -74,7 +72,7 @@ std::optional<Eigen::Vector3d> Unproject(const Lens& lens, const Eigen::Vector2d
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::Vector2d error = distorted - Distort(lens.distortion.data(), point);
     if (error.norm() <= kNear * (1 + distorted.norm())) return point.homogeneous();
-    Eigen::Vector2d change = DistortJacobian(lens.distortion, point).inverse() * error;
+    Eigen::Vector2d change = DistortJacobian(lens.distortion.data(), point).inverse() * error;
     for (int halving = 0; halving < 20 && !IsBeforeFold(lens, point + change); ++halving)
       change /= 2;
     point += change;

@@ -46,6 +46,9 @@ Eigen::Matrix<T, 2, 1> Distort(const T* k, const Eigen::Matrix<T, 2, 1>& point) 
           y * radial + k[2] * (r2 + 2.0 * y * y) + 2.0 * k[3] * x * y};
 }
 
+// Its derivative by the point.
+Eigen::Matrix2d DistortJacobian(const double* k, const Eigen::Vector2d& point);
+
 // Where a point in the camera frame appears; nothing where it is not ahead of the camera, or so far
 // outside that the distortion folds the picture back over itself.
 std::optional<Eigen::Vector2d> Project(const Lens& lens, const Eigen::Vector3d& point_in_cam_mm);

@@ -106,10 +106,7 @@ struct DirectCornerCost {
     return true;
   }
 
-  ceres::CostFunction* Create() const {
-    return new ceres::AutoDiffCostFunction<DirectCornerCost, 2, kLensSize, kPoseSize, kPoseSize>(
-        new DirectCornerCost(*this));
-  }
+  ceres::CostFunction* Create() const;  // with its derivatives worked out
 };
 
 // Parameters: lens, cam_from_stage, mirror, stage_from_board.
@@ -154,10 +151,7 @@ struct MovingCornerCost {
     return true;
   }
 
-  ceres::CostFunction* Create() const {
-    return new ceres::AutoDiffCostFunction<MovingCornerCost, 2, kLensSize, kPoseSize, 1, kPoseSize>(
-        new MovingCornerCost(*this));
-  }
+  ceres::CostFunction* Create() const;  // with its derivatives worked out
 };
 
 // Parameters: lens, cam_from_stage, offset, a point of the stage.
