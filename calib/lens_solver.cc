@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "calib/held_out.h"
+#include "calib/network_screening.h"
 #include "calib/planar_pose.h"
 #include "calib/view_screening.h"
 
@@ -160,14 +161,6 @@ void Simplify(SolvedLens& solved, const LensOptions& options, double huber_px) {
   }
 }
 
-double HuberFor_px(const AdjustedNetwork& adjusted, const LensOptions& options) {
-  // Perfect pictures, as tests make them, have no residuals to take a scale from.
-  constexpr double kLeast_px = 1e-3;
-  return options.huber_sigmas == 0
-             ? 0
-             : std::max(kLeast_px, options.huber_sigmas * RobustSigmaOf(adjusted.residuals_px));
-}
-
 // The full model on the sightings that are kept, and which of them do not fit.
 AdjustedNetwork SolveFullModel(const BoardSpec& board, const CameraSightings& input,
                                const Camera& start, const std::vector<int>& kept,
@@ -180,7 +173,8 @@ AdjustedNetwork SolveFullModel(const BoardSpec& board, const CameraSightings& in
       Adjust(WithModel(network, model, options), OptionsFor(freedom, first_huber_px));
   // Now that the lens is known, a board may turn out to stand in its other pose.
   const Network again = PlaceSightings(board, input, adjusted.network.array.cameras[0], kept);
-  return Adjust(again, OptionsFor(freedom, HuberFor_px(adjusted, options)));
+  return Adjust(again,
+                OptionsFor(freedom, HuberFor_px(adjusted.residuals_px, options.huber_sigmas)));
 }
 
 Result<Camera> StartOf(const BoardSpec& board, const CameraSightings& camera) {
@@ -227,7 +221,7 @@ bool ShowsWholePicture(const Camera& camera) {
 // The rational model needs views that reach into the corners of a wide lens; where they do not, its
 // numerator and denominator cancel and wander off together.
 void TryRational(SolvedLens& solved, const LensOptions& options) {
-  const double huber_px = HuberFor_px(solved.adjusted, options);
+  const double huber_px = HuberFor_px(solved.adjusted.residuals_px, options.huber_sigmas);
   AdjustedNetwork rational = Adjust(solved.adjusted.network,
                                     OptionsFor(FreedomOf(LensModel::kRational, options), huber_px));
   const double before_px = HeldOutRms_px(solved.adjusted.network, FreedomOf(solved.model, options));
@@ -279,7 +273,8 @@ Result<SolvedLens> SolveLens(const BoardSpec& board, const CameraSightings& came
         camera.camera, solved.set_aside.size(), camera.sightings.size(),
         camera.sightings[first.sighting].source, reason));
   }
-  if (options.simplify) Simplify(solved, options, HuberFor_px(solved.adjusted, options));
+  if (options.simplify)
+    Simplify(solved, options, HuberFor_px(solved.adjusted.residuals_px, options.huber_sigmas));
   if (options.model == LensModel::kRational) TryRational(solved, options);
   return solved;
 }

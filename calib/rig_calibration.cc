@@ -11,9 +11,9 @@
 #include "calib/held_out.h"
 #include "calib/instants.h"
 #include "calib/lens_solver.h"
+#include "calib/network_screening.h"
 #include "calib/planar_pose.h"
 #include "calib/pose_graph.h"
-#include "calib/view_screening.h"
 
 namespace articap {
 namespace {
@@ -89,48 +89,6 @@ std::vector<PlacedSighting> PlaceSightings(const BoardSpec& board,
   return placed;
 }
 
-double HuberFor_px(const AdjustedNetwork& adjusted, double sigmas) {
-  constexpr double kLeast_px = 1e-3;
-  return sigmas == 0 ? 0 : std::max(kLeast_px, sigmas * RobustSigmaOf(adjusted.residuals_px));
-}
-
-// The motion that a moving network assumes comes from the placements that an adjustment starts
-// from: a few rounds, until the offsets stand still.
-AdjustedNetwork AdjustMoving(Network network, const AdjustOptions& options) {
-  constexpr int kMostRounds = 6;
-  constexpr double kStill_s = 1e-6;
-  for (int round = 0;; ++round) {
-    AdjustedNetwork adjusted = Adjust(network, options);
-    double change_s = 0;
-    for (std::size_t i = 0; i < network.array.cameras.size(); ++i)
-      change_s = std::max(change_s, std::abs(adjusted.network.array.cameras[i].time_offset_s -
-                                             network.array.cameras[i].time_offset_s));
-    if (!options.free_time_offsets || change_s < kStill_s || round == kMostRounds) return adjusted;
-    network = adjusted.network;
-  }
-}
-
-// Adjusts, and sets aside what does not fit the rest, until everything does.
-AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const RigOptions& options,
-                                SetAside& set_aside) {
-  constexpr int kMostRounds = 3;
-  adjust.huber_px = options.huber_sigmas == 0 ? 0 : 1;
-  AdjustedNetwork adjusted = AdjustMoving(std::move(network), adjust);
-  for (int round = 0;; ++round) {
-    adjust.huber_px = HuberFor_px(adjusted, options.huber_sigmas);
-    adjusted = AdjustMoving(adjusted.network, adjust);
-    if (!options.set_views_aside || round == kMostRounds) return adjusted;
-    const std::vector<BadSighting> bad = ScreenSightings(adjusted);
-    if (bad.empty()) return adjusted;
-    for (auto sighting = bad.rbegin(); sighting != bad.rend(); ++sighting) {
-      auto& all = adjusted.network.sightings;
-      const NetworkSighting& removed = all[sighting->sighting];
-      set_aside[{removed.view.camera, removed.input}] = sighting->reason;
-      all.erase(all.begin() + sighting->sighting);
-    }
-  }
-}
-
 }  // namespace
 
 void VisitOptions(RigOptions& options, OptionVisitor& visit) {
@@ -165,7 +123,8 @@ Result<StageResult<Calibration>> CalibrateRig(const BoardSpec& board,
   adjust.lenses = start->freedoms;
   adjust.free_time_offsets = options.free_time_offsets;
   SetAside set_aside = std::move(start->set_aside);
-  const AdjustedNetwork adjusted = AdjustAndScreen(*std::move(network), adjust, options, set_aside);
+  const AdjustedNetwork adjusted = AdjustAndScreen(
+      *std::move(network), adjust, {options.huber_sigmas, options.set_views_aside}, set_aside);
   Calibration calibration = MakeCalibration(cameras, adjusted, set_aside);
   if (!options.free_time_offsets)
     calibration.held_out = HeldOutRigidity(adjusted.network, adjust, adjusted.sigma_px);

@@ -115,6 +115,38 @@ NetworkScene RigScene(unsigned seed, int num_cameras, int num_placements) {
   return scene;
 }
 
+NetworkScene MirrorScene(unsigned seed, int num_placements, double glass_mm) {
+  std::mt19937 random(seed);
+  NetworkScene scene;
+  scene.board = ParseBoardSpec("chessboard:9x6:12").value();
+  Camera camera;
+  camera.name = "camera";
+  camera.width = 1280;
+  camera.height = 720;
+  camera.lens = {1500, 1503, 645, 352, {-0.12, 0.05, 0.0005, -0.0003, 0, 0, 0, 0}};
+  scene.array.cameras = {camera};
+  Mirror mirror;
+  mirror.name = "mirror";
+  // Stands to the right of the board, and shows its right side. Through (150, 0, 800).
+  mirror.normal_in_stage = Eigen::Vector3d{std::sin(45 * kDegree), 0, std::cos(45 * kDegree)};
+  mirror.distance_mm = mirror.normal_in_stage.dot(Eigen::Vector3d{150, 0, 800});
+  mirror.glass_mm = glass_mm;
+  scene.array.mirrors = {mirror};
+  std::mt19937 unused(0);
+  while (static_cast<int>(scene.stage_from_board.size()) < num_placements) {
+    // Turned halfway towards the mirror, so that both ways show it.
+    Rigid3d pose{Eigen::AngleAxisd(Between(random, -60, -30) * kDegree, Eigen::Vector3d::UnitY()) *
+                     TiltedBoard(random, 20 * kDegree),
+                 {}};
+    const Eigen::Vector3d at{Between(random, -180, 20), Between(random, -90, 90),
+                             Between(random, 620, 800)};
+    pose.translation_mm = at - pose.rotation * MiddleOf(scene.board);
+    if (SeeBoard(scene, {0, -1}, pose, 0, unused) && SeeBoard(scene, {0, 0}, pose, 0, unused))
+      scene.stage_from_board.push_back(pose);
+  }
+  return scene;
+}
+
 std::vector<CameraSightings> SeeBoards(const NetworkScene& scene, double noise_px, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<CameraSightings> all;

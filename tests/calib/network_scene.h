@@ -26,6 +26,11 @@ NetworkScene LensScene(unsigned seed, int num_views);
 // volume, turned to one camera or another. The stage frame is the first camera's.
 NetworkScene RigScene(unsigned seed, int num_cameras, int num_placements);
 
+// One camera of 1280 x 720 pixels and a mirror at 45 degrees beside the board, which shows both
+// ways: the set-up of Rademan and Niesler. The stage frame is the camera's. A board of 12 mm
+// squares.
+NetworkScene MirrorScene(unsigned seed, int num_placements, double glass_mm = 0);
+
 // What each camera sees of every placement; a board that is not wholly in the picture is not seen.
 std::vector<CameraSightings> SeeBoards(const NetworkScene& scene, double noise_px, unsigned seed);
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "calib/network_screening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "calib/view_screening.h"
+
+namespace articap {
+namespace {
+
+// The motion that a moving network assumes comes from the placements that an adjustment starts
+// from: a few rounds, until the offsets stand still.
+AdjustedNetwork AdjustMoving(Network network, const AdjustOptions& options) {
+  constexpr int kMostRounds = 6;
+  constexpr double kStill_s = 1e-6;
+  for (int round = 0;; ++round) {
+    AdjustedNetwork adjusted = Adjust(network, options);
+    double change_s = 0;
+    for (std::size_t i = 0; i < network.array.cameras.size(); ++i)
+      change_s = std::max(change_s, std::abs(adjusted.network.array.cameras[i].time_offset_s -
+                                             network.array.cameras[i].time_offset_s));
+    if (!options.free_time_offsets || change_s < kStill_s || round == kMostRounds) return adjusted;
+    network = adjusted.network;
+  }
+}
+
+}  // namespace
+
+double HuberFor_px(const std::vector<std::vector<Eigen::Vector2d>>& residuals_px, double sigmas) {
+  // Perfect corners, as tests make them, have no residuals to take a scale from.
+  constexpr double kLeast_px = 1e-3;
+  return sigmas == 0 ? 0 : std::max(kLeast_px, sigmas * RobustSigmaOf(residuals_px));
+}
+
+AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const ScreenOptions& options,
+                                SetAside& set_aside) {
+  constexpr int kMostRounds = 3;
+  adjust.huber_px = options.huber_sigmas == 0 ? 0 : 1;
+  AdjustedNetwork adjusted = AdjustMoving(std::move(network), adjust);
+  for (int round = 0;; ++round) {
+    adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
+    adjusted = AdjustMoving(adjusted.network, adjust);
+    if (!options.set_views_aside || round == kMostRounds) return adjusted;
+    const std::vector<BadSighting> bad = ScreenSightings(adjusted);
+    if (bad.empty()) return adjusted;
+    for (auto sighting = bad.rbegin(); sighting != bad.rend(); ++sighting) {
+      auto& all = adjusted.network.sightings;
+      const NetworkSighting& removed = all[sighting->sighting];
+      set_aside[{removed.view.camera, removed.input}] = sighting->reason;
+      all.erase(all.begin() + sighting->sighting);
+    }
+  }
+}
+
+}  // namespace articap

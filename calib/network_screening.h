@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "calib/calibration.h"
+#include "calib/network.h"
+
+namespace articap {
+
+struct ScreenOptions {
+  double huber_sigmas = 3;  // 0: plain least squares
+  bool set_views_aside = true;
+};
+
+// Huber's loss for residuals like these, px; 0 for none.
+double HuberFor_px(const std::vector<std::vector<Eigen::Vector2d>>& residuals_px, double sigmas);
+
+// Adjusts, sets aside what does not fit the rest, and adjusts again, until everything fits. The
+// sightings left out are added to `set_aside`.
+AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const ScreenOptions& options,
+                                SetAside& set_aside);
+
+}  // namespace articap

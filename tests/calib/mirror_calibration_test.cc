@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "calib/mirror_calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calib/lens_solver.h"
+#include "tests/calib/network_scene.h"
+
+namespace articap {
+namespace {
+
+using testing::HasSubstr;
+
+void ExpectSameMirror(const Mirror& found, const Mirror& truth, double angle_rad,
+                      double distance_mm) {
+  EXPECT_LT(std::acos(std::min(1.0, found.normal_in_stage.dot(truth.normal_in_stage))), angle_rad);
+  EXPECT_NEAR(found.distance_mm, truth.distance_mm, distance_mm);
+}
+
+TEST(MirrorCalibrationTest, PerfectCornersGiveTheMirrorBack) {
+  const NetworkScene scene = MirrorScene(1, 15);
+  const auto found = CalibrateMirror(scene.board, SeeBoards(scene, 0, 1)[0], {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_TRUE(found->report.IsUsable()) << found->report.verdict;
+  EXPECT_NEAR(found->output.array.cameras[0].lens.fx_px, 1500, 1e-3);
+  ExpectSameMirror(found->output.array.mirrors[0], scene.array.mirrors[0], 1e-6, 1e-3);
+}
+
+TEST(MirrorCalibrationTest, NoiseMovesTheMirrorAsFarAsItsSigmasSay) {
+  int beyond_three = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const NetworkScene scene = MirrorScene(seed, 20);
+    const auto found = CalibrateMirror(scene.board, SeeBoards(scene, 0.1, 100 + seed)[0], {}, {});
+    ASSERT_TRUE(found) << found.error().message;
+    const Mirror& mirror = found->output.array.mirrors[0];
+    const Mirror& truth = scene.array.mirrors[0];
+    const double angle_rad = mirror.normal_in_stage.cross(truth.normal_in_stage).norm();
+    // The angle has two components, neither above the sigma.
+    if (angle_rad > 3.5 * mirror.normal_sigma_rad) ++beyond_three;
+    if (std::abs(mirror.distance_mm - truth.distance_mm) > 3 * mirror.distance_sigma_mm)
+      ++beyond_three;
+    EXPECT_LT(found->output.held_out.rigidity_mm,
+              1.25 * found->output.held_out.expected_rigidity_mm);
+  }
+  // Of 16 chances of about 0.3 %.
+  EXPECT_LE(beyond_three, 1);
+}
+
+// What the mirror shows, taken for a second camera's picture: flipped, with six parameters of its
+// own in place of the mirror's three, and the same lens, flipped as well.
+Network WithFreeSecondCamera(const Calibration& mirrored) {
+  Network network;
+  network.board = mirrored.board;
+  network.placements = mirrored.placements;
+  Camera camera = mirrored.array.cameras[0];
+  network.array.cameras = {camera, camera};
+  Camera& second = network.array.cameras[1];
+  second.lens.cx_px = camera.width - 1 - camera.lens.cx_px;
+  second.lens.distortion[Lens::kP2] *= -1;
+  // The reflection, and the flip that makes a rotation of it again.
+  const Mirror& mirror = mirrored.array.mirrors[0];
+  const Eigen::Vector3d& n = mirror.normal_in_stage;
+  const Eigen::Matrix3d reflection = Eigen::Matrix3d::Identity() - 2 * n * n.transpose();
+  const Eigen::Vector3d flip{-1, 1, 1};
+  second.cam_from_stage = {Eigen::Quaterniond(Eigen::Matrix3d(flip.asDiagonal() * reflection)),
+                           flip.cwiseProduct(2 * mirror.distance_mm * n)};
+  for (const SightingResult& sighting : mirrored.sightings) {
+    if (!sighting.used) continue;
+    NetworkSighting seen{{sighting.view.mirror < 0 ? 0 : 1, -1},
+                         sighting.placement,
+                         0,
+                         0,
+                         sighting.corners,
+                         sighting.points_px};
+    if (sighting.view.mirror >= 0)
+      for (Eigen::Vector2d& point : seen.points_px) point.x() = camera.width - 1 - point.x();
+    network.sightings.push_back(seen);
+  }
+  return network;
+}
+
+TEST(MirrorCalibrationTest, ThreeParametersExplainAsMuchAsAFreeSecondCamera) {
+  const NetworkScene scene = MirrorScene(5, 20);
+  const auto found = CalibrateMirror(scene.board, SeeBoards(scene, 0.1, 11)[0], {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  AdjustOptions options;
+  options.lenses = {FreedomOf(LensModel::kBrown5, {}), LensFreedom{}};
+  const AdjustedNetwork free = Adjust(WithFreeSecondCamera(found->output), options);
+  ASSERT_TRUE(free.converged) << free.solver_message;
+  EXPECT_LT(found->output.rms_px(), 1.05 * free.rms_px());
+  EXPECT_GT(found->output.rms_px(), 0.95 * free.rms_px());
+}
+
+// Residuals hardly tell that there is glass: the lens' axis and the plane give way. But they are
+// wrong then, which is why the thickness has to be said.
+TEST(MirrorCalibrationTest, GlassThatIsNotSaidMovesTheMirror) {
+  const NetworkScene scene = MirrorScene(3, 20, 5);
+  const CameraSightings seen = SeeBoards(scene, 0.02, 7)[0];
+  MirrorOptions glass;
+  glass.glass_mm = 5;
+  const auto with = CalibrateMirror(scene.board, seen, {}, glass);
+  const auto without = CalibrateMirror(scene.board, seen, {}, {});
+  ASSERT_TRUE(with && without);
+  const Mirror& truth = scene.array.mirrors[0];
+  EXPECT_NEAR(with->output.rms_px(), 0.02 * std::sqrt(2.0), 0.002);
+  ExpectSameMirror(with->output.array.mirrors[0], truth, 1e-3, 0.5);
+  const Mirror& wrong = without->output.array.mirrors[0];
+  EXPECT_GT(wrong.normal_in_stage.cross(truth.normal_in_stage).norm(), 2e-3);
+}
+
+TEST(MirrorCalibrationTest, TwoMirrorsAreToldApart) {
+  NetworkScene scene = MirrorScene(2, 15);
+  Mirror left = scene.array.mirrors[0];
+  left.name = "left";
+  // Below the board, tilted towards it.
+  left.normal_in_stage = Eigen::Vector3d{0, std::sin(0.6), std::cos(0.6)};
+  left.distance_mm = left.normal_in_stage.dot(Eigen::Vector3d{0, 140, 950});
+  scene.array.mirrors.push_back(left);
+  const CameraSightings seen = SeeBoards(scene, 0.05, 9)[0];
+  MirrorOptions options;
+  options.mirrors = 2;
+  const auto found = CalibrateMirror(scene.board, seen, {}, options);
+  ASSERT_TRUE(found) << found.error().message;
+  const auto& mirrors = found->output.array.mirrors;
+  ASSERT_EQ(mirrors.size(), 2U);
+  const bool swapped =
+      mirrors[0].normal_in_stage.dot(scene.array.mirrors[0].normal_in_stage) < 0.99;
+  for (int i = 0; i < 2; ++i)
+    ExpectSameMirror(mirrors[swapped ? 1 - i : i], scene.array.mirrors[i], 0.002, 1.0);
+}
+
+TEST(MirrorCalibrationTest, AMirrorThatShowsOnlyItselfIsRefused) {
+  const NetworkScene scene = MirrorScene(1, 10);
+  CameraSightings seen = SeeBoards(scene, 0.1, 1)[0];
+  std::erase_if(seen.sightings, [](const BoardSighting& sighting) { return !sighting.mirrored; });
+  const auto found = CalibrateMirror(scene.board, seen, {}, {});
+  ASSERT_FALSE(found);
+  EXPECT_THAT(found.error().message, HasSubstr("0 of 10 pictures show the board both"));
+}
+
+}  // namespace
+}  // namespace articap
