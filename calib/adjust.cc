@@ -16,40 +16,26 @@
 namespace articap {
 namespace {
 
-// The middle one of the three placements that follow one another in the least time and hold this
-// one; nothing where there are fewer than three.
-std::optional<int> MiddleOfTriple(const std::vector<Placement>& placements, int placement) {
-  std::optional<int> best;
-  double best_s = HUGE_VAL;
-  const int last = static_cast<int>(placements.size()) - 1;
-  for (int middle : {placement, placement - 1, placement + 1}) {
-    if (middle < 1 || middle > last - 1) continue;
-    const double span_s = placements[middle + 1].time_s - placements[middle - 1].time_s;
-    if (span_s < best_s) {
-      best_s = span_s;
-      best = middle;
-    }
-  }
-  return best;
-}
-
 // Where a corner goes between the placements next to it in time: through its three places runs a
 // parabola.
-PointMotion MotionOf(const Network& network, int placement, const Eigen::Vector3d& corner_mm) {
-  const std::optional<int> middle = MiddleOfTriple(network.placements, placement);
+PointMotion MotionOf(const Network& network, const std::vector<double>& times_s, int placement,
+                     const Eigen::Vector3d& corner_mm) {
+  const std::optional<int> middle = MiddleOfTriple(times_s, placement);
   if (!middle) return {};
   std::array<TimedPoint, 3> path;
   for (int i = 0; i < 3; ++i) {
     const Placement& at = network.placements[*middle - 1 + i];
     path[i] = {at.time_s, at.stage_from_board * corner_mm};
   }
-  return MotionThrough(path, network.placements[placement].time_s);
+  return MotionThrough(path, times_s[placement]);
 }
 
 // Gives visit(sighting, cost, parameter blocks...) every corner of every sighting.
 template <class Visit>
 void VisitCorners(const Network& network, CameraBlocks& cameras, std::vector<PoseBlock>& placements,
                   const Visit& visit) {
+  std::vector<double> times_s;
+  for (const Placement& at : network.placements) times_s.push_back(at.time_s);
   for (std::size_t index = 0; index < network.sightings.size(); ++index) {
     const NetworkSighting& sighting = network.sightings[index];
     double* const lens = cameras.lens(sighting.view.camera);
@@ -63,8 +49,8 @@ void VisitCorners(const Network& network, CameraBlocks& cameras, std::vector<Pos
         visit(index, MirroredCornerCost{corner, seen_px, mirror.glass_mm, mirror.glass_index}, lens,
               pose, cameras.mirror(sighting.view.mirror), placement);
       } else if (network.moving) {
-        PointMotion motion = MotionOf(network, sighting.placement, corner);
-        motion.shift_s = sighting.time_s - network.placements[sighting.placement].time_s;
+        PointMotion motion = MotionOf(network, times_s, sighting.placement, corner);
+        motion.shift_s = sighting.time_s - times_s[sighting.placement];
         visit(index, MovingCornerCost{corner, seen_px, motion}, lens, pose,
               cameras.time_offset(sighting.view.camera), placement);
       } else {

@@ -11,11 +11,10 @@ namespace articap {
 namespace {
 
 // Between pictures that follow one another.
-double UsualInterval_s(const CameraSightings& camera) {
+double UsualInterval_s(const std::vector<SessionTime>& times) {
   std::vector<double> intervals_s;
-  for (std::size_t i = 1; i < camera.sightings.size(); ++i) {
-    const double interval_s =
-        SecondsOf(camera.sightings[i].time) - SecondsOf(camera.sightings[i - 1].time);
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double interval_s = SecondsOf(times[i]) - SecondsOf(times[i - 1]);
     if (interval_s > 0) intervals_s.push_back(interval_s);
   }
   if (intervals_s.empty()) return 1;
@@ -39,15 +38,15 @@ InstantTable InstantsByFrame(const std::vector<CameraSightings>& cameras) {
   return instants;
 }
 
-InstantTable InstantsByTime(const std::vector<CameraSightings>& cameras) {
-  const CameraSightings& first = cameras.front();
-  const double start_s = SecondsOf(first.sightings.front().time);
+InstantTable InstantsByTime(const std::vector<std::vector<SessionTime>>& times_of_cameras) {
+  const std::vector<SessionTime>& first = times_of_cameras.front();
+  const double start_s = SecondsOf(first.front());
   const double interval_s = UsualInterval_s(first);
   std::map<SightingKey, std::int64_t> steps;
-  for (int camera = 0; camera < static_cast<int>(cameras.size()); ++camera)
-    for (int i = 0; i < static_cast<int>(cameras[camera].sightings.size()); ++i)
+  for (int camera = 0; camera < static_cast<int>(times_of_cameras.size()); ++camera)
+    for (int i = 0; i < static_cast<int>(times_of_cameras[camera].size()); ++i)
       steps[{camera, i}] =
-          std::llround((SecondsOf(cameras[camera].sightings[i].time) - start_s) / interval_s);
+          std::llround((SecondsOf(times_of_cameras[camera][i]) - start_s) / interval_s);
   std::set<std::int64_t> used;
   for (const auto& [key, step] : steps) used.insert(step);
   InstantTable instants;
@@ -55,6 +54,15 @@ InstantTable InstantsByTime(const std::vector<CameraSightings>& cameras) {
     instants[key] = {static_cast<int>(std::distance(used.begin(), used.find(step))),
                      start_s + static_cast<double>(step) * interval_s};
   return instants;
+}
+
+InstantTable InstantsByTime(const std::vector<CameraSightings>& cameras) {
+  std::vector<std::vector<SessionTime>> times;
+  for (const CameraSightings& camera : cameras) {
+    times.emplace_back();
+    for (const BoardSighting& sighting : camera.sightings) times.back().push_back(sighting.time);
+  }
+  return InstantsByTime(times);
 }
 
 }  // namespace articap

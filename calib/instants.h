@@ -21,6 +21,7 @@ InstantTable InstantsByFrame(const std::vector<CameraSightings>& cameras);
 
 // For cameras that are not synchronous: the first camera's clock, divided into its usual intervals;
 // each picture belongs to the nearest instant by its own camera's clock.
+InstantTable InstantsByTime(const std::vector<std::vector<SessionTime>>& times_of_cameras);
 InstantTable InstantsByTime(const std::vector<CameraSightings>& cameras);
 
 }  // namespace articap

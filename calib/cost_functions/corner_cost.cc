@@ -3,6 +3,8 @@
 
 #include <ceres/sized_cost_function.h>
 
+#include <cmath>
+
 namespace articap {
 namespace {
 
@@ -135,6 +137,20 @@ class MovingCornerFunction final
 };
 
 }  // namespace
+
+std::optional<int> MiddleOfTriple(const std::vector<double>& times_s, int instant) {
+  std::optional<int> best;
+  double best_s = HUGE_VAL;
+  for (int middle : {instant, instant - 1, instant + 1}) {
+    if (middle < 1 || middle + 1 >= static_cast<int>(times_s.size())) continue;
+    const double span_s = times_s[middle + 1] - times_s[middle - 1];
+    if (span_s < best_s) {
+      best_s = span_s;
+      best = middle;
+    }
+  }
+  return best;
+}
 
 ceres::CostFunction* DirectCornerCost::Create() const { return new DirectCornerFunction(*this); }
 ceres::CostFunction* MovingCornerCost::Create() const { return new MovingCornerFunction(*this); }

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
+#include <vector>
 
 #include "core/camera.h"
 
@@ -71,6 +73,10 @@ struct PointMotion {
     return velocity_mm_s.cast<T>() * time + acceleration_mm_s2.cast<T>() * (0.5 * time * time);
   }
 };
+
+// Of three instants that follow one another, hold this one and span the least time, the middle one;
+// nothing where there are fewer than three. Times ascend.
+std::optional<int> MiddleOfTriple(const std::vector<double>& times_s, int instant);
 
 struct TimedPoint {
   double time_s = 0;
@@ -154,16 +160,17 @@ struct MovingCornerCost {
   ceres::CostFunction* Create() const;  // with its derivatives worked out
 };
 
-// Parameters: lens, cam_from_stage, offset, a point of the stage.
-struct MovingPointCost {
+// Parameters: lens, cam_from_stage, offset, both ends of a rod in the stage.
+struct RodEndCost {
+  int end;  // 0 or 1
   Eigen::Vector2d seen_px;
   PointMotion motion;
 
   template <class T>
-  bool operator()(const T* lens, const T* cam_from_stage, const T* offset_s,
-                  const T* point_in_stage, T* residual) const {
+  bool operator()(const T* lens, const T* cam_from_stage, const T* offset_s, const T* ends,
+                  T* residual) const {
     const Point3<T> in_stage =
-        Eigen::Map<const Point3<T>>(point_in_stage) + motion.After(offset_s[0]);
+        Eigen::Map<const Point3<T>>(ends + 3 * end) + motion.After(offset_s[0]);
     Point2<T> point;
     if (!ProjectInto<T>(lens, Transform<T>(cam_from_stage, in_stage), point)) return false;
     Eigen::Map<Point2<T>>{residual} = point - seen_px;
@@ -171,8 +178,8 @@ struct MovingPointCost {
   }
 
   ceres::CostFunction* Create() const {
-    return new ceres::AutoDiffCostFunction<MovingPointCost, 2, kLensSize, kPoseSize, 1, 3>(
-        new MovingPointCost(*this));
+    return new ceres::AutoDiffCostFunction<RodEndCost, 2, kLensSize, kPoseSize, 1, 6>(
+        new RodEndCost(*this));
   }
 };
 
@@ -182,14 +189,14 @@ struct RodLengthCost {
   double sigma_mm;
 
   template <class T>
-  bool operator()(const T* one_end, const T* other_end, T* residual) const {
-    const Eigen::Map<const Point3<T>> a(one_end), b(other_end);
+  bool operator()(const T* ends, T* residual) const {
+    const Eigen::Map<const Point3<T>> a(ends), b(ends + 3);
     residual[0] = ((a - b).norm() - length_mm) / sigma_mm;
     return true;
   }
 
   ceres::CostFunction* Create() const {
-    return new ceres::AutoDiffCostFunction<RodLengthCost, 1, 3, 3>(new RodLengthCost(*this));
+    return new ceres::AutoDiffCostFunction<RodLengthCost, 1, 6>(new RodLengthCost(*this));
   }
 };
 

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "calib/wand_calibration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "calib/epipolar.h"
+#include "calib/wand_network.h"
+#include "calib/wand_start.h"
+#include "core/triangulation.h"
+
+namespace articap {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kFewestPictures = 30;
+
+// Pictures that show two markers, no more and no fewer.
+std::size_t CountWands(const WandVideo& video) {
+  return static_cast<std::size_t>(
+      std::count_if(video.pictures.begin(), video.pictures.end(),
+                    [](const WandPicture& picture) { return picture.points_px.size() == 2; }));
+}
+
+Result<void> RefuseUnusable(const std::vector<WandVideo>& videos, const WandOptions& options) {
+  if (const auto lengths = RequirePositive(
+          {{"length_mm", options.length_mm}, {"length_sigma_mm", options.length_sigma_mm}});
+      !lengths)
+    return lengths;
+  if (videos.size() < 2) return Fail("a wand needs two cameras or more to be seen in depth");
+  for (const WandVideo& video : videos)
+    if (CountWands(video) < kFewestPictures)
+      return Fail(fmt::format(
+          "{}: {} of {} pictures show two markers, at least {} are needed; is the threshold right, "
+          "are there other bright spots (lamps, reflections) in the picture?",
+          video.camera, CountWands(video), video.pictures.size(), kFewestPictures));
+  return {};
+}
+
+AdjustOptions OptionsFor(const std::vector<WandVideo>& videos, const WandOptions& options) {
+  AdjustOptions adjust;
+  LensFreedom freedom;
+  freedom.focal = options.adjust_focal;
+  freedom.distortion[Lens::kK1] = freedom.distortion[Lens::kK2] = options.adjust_radial;
+  adjust.lenses.assign(videos.size(), freedom);
+  adjust.free_time_offsets = options.free_time_offsets;
+  adjust.huber_px = 2;
+  return adjust;
+}
+
+double MedianResidual_px(const AdjustedWand& adjusted) {
+  std::vector<double> distances;
+  for (const auto& ends : adjusted.residuals_px)
+    for (const Eigen::Vector2d& residual : ends) distances.push_back(residual.norm());
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+// Pictures whose markers are far from where they should be: reflections, other blobs.
+void RemoveOutliers(const AdjustedWand& adjusted, double limit_px, WandNetwork& network) {
+  std::vector<WandSighting> kept;
+  for (std::size_t i = 0; i < network.sightings.size(); ++i)
+    if (adjusted.residuals_px[i][0].norm() < limit_px &&
+        adjusted.residuals_px[i][1].norm() < limit_px)
+      kept.push_back(network.sightings[i]);
+  network.sightings = std::move(kept);
+}
+
+// The motion that the time offsets act on comes from where an adjustment starts: a few rounds, with
+// weights and outliers by the last one's residuals.
+AdjustedWand AdjustInRounds(WandNetwork network, AdjustOptions adjust, const WandOptions& options) {
+  constexpr int kRounds = 6;
+  AdjustedWand adjusted;
+  for (int round = 0; round < kRounds; ++round) {
+    adjusted = AdjustWand(network, adjust);
+    network = adjusted.network;
+    // The median distance of two Gaussian coordinates is 1.177 sigmas.
+    network.sigma_px = std::max(1e-3, MedianResidual_px(adjusted) / 1.177);
+    adjust.huber_px = options.huber_sigmas * network.sigma_px;
+    if (round == 2) {
+      RemoveOutliers(adjusted, std::max(0.5, 10 * network.sigma_px), network);
+      KeepSharedInstants(network);
+    }
+  }
+  return adjusted;
+}
+
+// Of each instant the distance between its ends, each by the rays of the cameras alone, which are
+// first brought to the instant by the motion found.
+std::vector<double> LengthsOf_mm(const WandNetwork& network) {
+  std::map<int, std::array<std::vector<Sight>, 2>> sights;
+  for (const WandSighting& sighting : network.sightings) {
+    const WandInstant& instant = network.instants[sighting.instant];
+    const double after_s =
+        sighting.time_s + network.array.cameras[sighting.camera].time_offset_s - instant.time_s;
+    const auto moved = EndsAfter(network, sighting.instant, after_s);
+    for (int end = 0; end < 2; ++end) {
+      const View view{sighting.camera, -1};
+      const auto now = Project(network.array, view, instant.ends_mm[end]);
+      const auto then = Project(network.array, view, moved[end]);
+      if (now && then)
+        sights[sighting.instant][end].push_back({view, sighting.ends_px[end] + *now - *then});
+    }
+  }
+  std::vector<double> lengths_mm;
+  for (const auto& [instant, of_ends] : sights) {
+    const auto a = Triangulate(network.array, of_ends[0]);
+    const auto b = Triangulate(network.array, of_ends[1]);
+    if (a && b) lengths_mm.push_back((a->point_in_stage_mm - b->point_in_stage_mm).norm());
+  }
+  return lengths_mm;
+}
+
+WandCalibration Summarize(const AdjustedWand& adjusted) {
+  WandCalibration result;
+  result.array = adjusted.network.array;
+  result.sigma_px = adjusted.sigma_px;
+  double squares = 0;
+  for (const auto& ends : adjusted.residuals_px)
+    squares += ends[0].squaredNorm() + ends[1].squaredNorm();
+  result.rms_px = std::sqrt(squares / static_cast<double>(2 * adjusted.residuals_px.size()));
+  result.lengths_mm = LengthsOf_mm(adjusted.network);
+  result.instants = static_cast<int>(result.lengths_mm.size());
+  const double count = static_cast<double>(result.lengths_mm.size());
+  result.mean_length_mm =
+      std::accumulate(result.lengths_mm.begin(), result.lengths_mm.end(), 0.0) / count;
+  double variance = 0;
+  for (double length_mm : result.lengths_mm)
+    variance += std::pow(length_mm - result.mean_length_mm, 2) / count;
+  result.wand_score = 100 * std::sqrt(variance) / result.mean_length_mm;
+  return result;
+}
+
+StageReport Describe(const WandCalibration& wand, const WandOptions& options) {
+  StageReport report;
+  report.stage = "calibrate wand";
+  report.usable = wand.rms_px <= options.max_rms_px && wand.wand_score <= options.max_wand_score;
+  report.verdict =
+      report.usable
+          ? fmt::format("usable: wand score {:.3f} (100 SD / mean of {} lengths), {:.3f} px RMS",
+                        wand.wand_score, wand.instants, wand.rms_px)
+          : fmt::format(
+                "the wand's length varies by {:.2f} % (limit {:g}), residuals are {:.2f} px (limit "
+                "{:g}): are the lenses those of these cameras and pictures, was the wand stiff, "
+                "are "
+                "there other bright spots? Wave it slowly through the whole volume and record "
+                "again",
+                wand.wand_score, options.max_wand_score, wand.rms_px, options.max_rms_px);
+  report.figures = {{"rms_px", wand.rms_px},
+                    {"sigma_px", wand.sigma_px},
+                    {"instants", static_cast<double>(wand.instants)},
+                    {"mean_length_mm", wand.mean_length_mm},
+                    {"wand_score", wand.wand_score}};
+  ReportTable table = {"camera",
+                       {"x_mm", "y_mm", "z_mm", "sigma_mm", "sigma_deg", "fx_px", "time_offset_ms",
+                        "time_offset_sigma_ms"},
+                       {}};
+  for (const Camera& camera : wand.array.cameras) {
+    const Eigen::Vector3d at = camera.cam_from_stage.Inverse().translation_mm;
+    table.rows.push_back({camera.name,
+                          {at.x(), at.y(), at.z(), camera.sigmas.translation_mm.norm(),
+                           camera.sigmas.rotation_rad.norm() / kDegree, camera.lens.fx_px,
+                           1e3 * camera.time_offset_s, 1e3 * camera.sigmas.time_offset_s}});
+  }
+  report.tables = {std::move(table)};
+  report.options = EchoOptions(options);
+  return report;
+}
+
+}  // namespace
+
+void VisitOptions(WandOptions& options, OptionVisitor& visit) {
+  visit("length_mm", options.length_mm, "between the centres of the wand's two markers; mm");
+  visit("length_sigma_mm", options.length_sigma_mm,
+        "standard deviation of that length while the wand is waved; mm");
+  visit("adjust_focal", options.adjust_focal, "the focal lengths are only roughly known");
+  visit("adjust_radial", options.adjust_radial,
+        "the radial distortion (k1, k2) is only roughly known");
+  visit("free_time_offsets", options.free_time_offsets,
+        "the cameras are not synchronous: estimate each one's offset");
+  visit("huber_sigmas", options.huber_sigmas, "markers off by more standard deviations count less");
+  visit("max_rms_px", options.max_rms_px, "not usable with larger residuals; px");
+  visit("max_wand_score", options.max_wand_score,
+        "not usable where the wand's length varies more; percent");
+}
+
+Result<StageResult<WandCalibration>> CalibrateWand(const std::vector<WandVideo>& videos,
+                                                   const WandOptions& options) {
+  if (const auto usable = RefuseUnusable(videos, options); !usable)
+    return tl::unexpected(usable.error());
+  Result<WandNetwork> start = StartWandNetwork(videos, options.length_mm);
+  if (!start) return tl::unexpected(start.error());
+  start->length_sigma_mm = options.length_sigma_mm;
+  const AdjustedWand adjusted =
+      AdjustInRounds(*std::move(start), OptionsFor(videos, options), options);
+  WandCalibration wand = Summarize(adjusted);
+  StageReport report = Describe(wand, options);
+  return StageResult<WandCalibration>{std::move(wand), std::move(report)};
+}
+
+}  // namespace articap

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "calib/wand_network.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "calib/camera_blocks.h"
+#include "calib/cost_functions/corner_cost.h"
+
+namespace articap {
+namespace {
+
+std::vector<double> TimesOf(const WandNetwork& network) {
+  std::vector<double> times_s;
+  for (const WandInstant& at : network.instants) times_s.push_back(at.time_s);
+  return times_s;
+}
+
+PointMotion MotionOfEnd(const WandNetwork& network, const std::vector<double>& times_s, int instant,
+                        int end) {
+  const std::optional<int> middle = MiddleOfTriple(times_s, instant);
+  if (!middle) return {};
+  std::array<TimedPoint, 3> path;
+  for (int i = 0; i < 3; ++i) {
+    const WandInstant& at = network.instants[*middle - 1 + i];
+    path[i] = {at.time_s, at.ends_mm[end]};
+  }
+  return MotionThrough(path, times_s[instant]);
+}
+
+// Both ends of an instant, one after the other.
+using EndsBlock = std::array<double, 6>;
+
+class WandProblem {
+ public:
+  WandProblem(const WandNetwork& network, const AdjustOptions& options)
+      : network_(network), options_(options), cameras_(network.array, options) {
+    for (const WandInstant& instant : network.instants) {
+      EndsBlock& ends = ends_.emplace_back();
+      for (int end = 0; end < 2; ++end)
+        Eigen::Map<Eigen::Vector3d>{ends.data() + 3 * end} = instant.ends_mm[end];
+    }
+    const std::vector<double> times_s = TimesOf(network);
+    for (const WandSighting& sighting : network.sightings) AddSighting(sighting, times_s);
+    for (EndsBlock& ends : ends_) {
+      if (!problem_.HasParameterBlock(ends.data())) continue;
+      seen_.push_back(ends.data());
+      problem_.AddResidualBlock(
+          RodLengthCost{network.length_mm, network.length_sigma_mm / network.sigma_px}.Create(),
+          nullptr, ends.data());
+    }
+    cameras_.Constrain(problem_);
+  }
+  WandProblem(const WandProblem&) = delete;
+  WandProblem& operator=(const WandProblem&) = delete;
+
+  ceres::Solver::Summary Solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    std::vector<double*> blocks;
+    problem_.GetParameterBlocks(&blocks);
+    for (double* block : blocks) options.linear_solver_ordering->AddElementToGroup(block, 1);
+    for (double* block : seen_) options.linear_solver_ordering->AddElementToGroup(block, 0);
+    options.max_num_iterations = options_.max_iterations;
+    options.num_threads = options_.num_threads;
+    options.function_tolerance = 1e-10;
+    options.parameter_tolerance = 1e-10;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    return summary;
+  }
+
+  WandNetwork Solution() const {
+    WandNetwork network = network_;
+    network.array = cameras_.Array();
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      for (int end = 0; end < 2; ++end)
+        network.instants[i].ends_mm[end] =
+            Eigen::Map<const Eigen::Vector3d>(ends_[i].data() + 3 * end);
+    return network;
+  }
+
+  Eigen::MatrixXd Covariance() {
+    std::vector<std::vector<double*>> groups;
+    for (double* block : seen_) groups.push_back({block});
+    return CovarianceOfCameras(problem_, cameras_, groups);
+  }
+
+  const std::vector<CameraParameter>& parameters() const { return cameras_.parameters(); }
+
+ private:
+  void AddSighting(const WandSighting& sighting, const std::vector<double>& times_s) {
+    for (int end = 0; end < 2; ++end) {
+      PointMotion motion = MotionOfEnd(network_, times_s, sighting.instant, end);
+      motion.shift_s = sighting.time_s - times_s[sighting.instant];
+      problem_.AddResidualBlock(
+          RodEndCost{end, sighting.ends_px[end], motion}.Create(),
+          options_.huber_px > 0 ? new ceres::HuberLoss(options_.huber_px) : nullptr,
+          cameras_.lens(sighting.camera), cameras_.pose(sighting.camera),
+          cameras_.time_offset(sighting.camera), ends_[sighting.instant].data());
+    }
+  }
+
+  const WandNetwork& network_;
+  const AdjustOptions& options_;
+  CameraBlocks cameras_;
+  std::vector<EndsBlock> ends_;
+  std::vector<double*> seen_;  // those that a sighting shows
+  ceres::Problem problem_;
+};
+
+std::vector<std::array<Eigen::Vector2d, 2>> ResidualsOf(const WandNetwork& network) {
+  std::vector<std::array<Eigen::Vector2d, 2>> residuals;
+  for (const WandSighting& sighting : network.sightings) {
+    const Camera& camera = network.array.cameras[sighting.camera];
+    const double after_s =
+        sighting.time_s + camera.time_offset_s - network.instants[sighting.instant].time_s;
+    const auto ends = EndsAfter(network, sighting.instant, after_s);
+    std::array<Eigen::Vector2d, 2>& of_ends = residuals.emplace_back();
+    for (int end = 0; end < 2; ++end) {
+      const auto expected = Project(network.array, {sighting.camera, -1}, ends[end]);
+      of_ends[end] = expected ? Eigen::Vector2d(sighting.ends_px[end] - *expected)
+                              : Eigen::Vector2d::Constant(HUGE_VAL);
+    }
+  }
+  return residuals;
+}
+
+}  // namespace
+
+std::array<Eigen::Vector3d, 2> EndsAfter(const WandNetwork& network, int instant, double after_s) {
+  std::array<Eigen::Vector3d, 2> ends = network.instants[instant].ends_mm;
+  const std::vector<double> times_s = TimesOf(network);
+  for (int end = 0; end < 2; ++end)
+    ends[end] += MotionOfEnd(network, times_s, instant, end).After(after_s);
+  return ends;
+}
+
+AdjustedWand AdjustWand(const WandNetwork& network, const AdjustOptions& options) {
+  WandProblem problem(network, options);
+  const ceres::Solver::Summary summary = problem.Solve();
+  AdjustedWand adjusted;
+  adjusted.network = problem.Solution();
+  adjusted.converged = summary.termination_type == ceres::CONVERGENCE;
+  adjusted.residuals_px = ResidualsOf(adjusted.network);
+  const int free = static_cast<int>(problem.parameters().size() + 6 * network.instants.size());
+  adjusted.sigma_px = std::sqrt(2 * summary.final_cost / std::max(1, summary.num_residuals - free));
+  FillSigmas(problem.parameters(), adjusted.sigma_px * adjusted.sigma_px * problem.Covariance(),
+             adjusted.network.array);
+  return adjusted;
+}
+
+}  // namespace articap
