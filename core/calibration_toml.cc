@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/check.h"
 #include "core/file_io.h"
 #include "core/io/calibration_keys.h"
 #include "core/io/camera_formats.h"
@@ -22,10 +23,11 @@ constexpr char kHead[] =
 # sigmas are standard deviations: 0 where a value was held, left out where nothing is known.
 )";
 
+// What is not known, or not determined at all, is left out.
 std::string SigmaTable(const std::string& table, CameraSigmas sigmas) {
   std::string lines;
   for (const auto& [key, sigma] : KeyedSigmas(sigmas))
-    if (!std::isnan(*sigma)) lines += fmt::format("{} = {}\n", key, TomlFloat(*sigma));
+    if (std::isfinite(*sigma)) lines += fmt::format("{} = {}\n", key, TomlFloat(*sigma));
   return lines.empty() ? "" : fmt::format("\n[{}.sigmas]\n{}", table, lines);
 }
 
@@ -46,9 +48,9 @@ std::string MirrorTable(const Mirror& mirror, const std::string& camera_name, st
       "glass_mm = {}\nglass_index = {}\n",
       number, QuotedToml(mirror.name), QuotedToml(camera_name), TomlList(mirror.normal_in_stage),
       TomlFloat(mirror.distance_mm), TomlFloat(mirror.glass_mm), TomlFloat(mirror.glass_index));
-  if (!std::isnan(mirror.normal_sigma_rad))
+  if (std::isfinite(mirror.normal_sigma_rad))
     text += fmt::format("normal_sigma_rad = {}\n", TomlFloat(mirror.normal_sigma_rad));
-  if (!std::isnan(mirror.distance_sigma_mm))
+  if (std::isfinite(mirror.distance_sigma_mm))
     text += fmt::format("distance_sigma_mm = {}\n", TomlFloat(mirror.distance_sigma_mm));
   return text;
 }
@@ -56,6 +58,7 @@ std::string MirrorTable(const Mirror& mirror, const std::string& camera_name, st
 }  // namespace
 
 std::string WriteCalibration(const CameraArray& array) {
+  ARTICAP_CHECK(!array.cameras.empty());
   std::string text = kHead;
   // aniposelib sorts the tables by name; with equally many digits that is our order.
   const std::size_t digits = std::to_string(array.cameras.size() - 1).size();

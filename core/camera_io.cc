@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/file_io.h"
+#include "core/io/calibration_keys.h"
 #include "core/io/camera_formats.h"
 #include "core/io/camera_parts.h"
 #include "core/io/opencv_yaml.h"
@@ -47,8 +48,9 @@ Result<std::string> ReadExtrinsicsBeside(const std::filesystem::path& path) {
   return std::string();
 }
 
-bool KnowsSigmas(const CameraSigmas& sigmas) {
-  return std::isfinite(sigmas.fx_px) || std::isfinite(sigmas.translation_mm.x());
+bool KnowsSigmas(CameraSigmas sigmas) {
+  return std::ranges::any_of(KeyedSigmas(sigmas),
+                             [](const auto& keyed) { return std::isfinite(*keyed.second); });
 }
 
 }  // namespace

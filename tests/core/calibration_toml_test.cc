@@ -172,6 +172,18 @@ TEST(CalibrationTomlTest, LongerListsOfZerosAndIntegersAreRead) {
   EXPECT_EQ(WriteCalibration(*read), TextOfCameraFile("calibration.toml"));
 }
 
+// A bundle adjustment that does not determine a value may say that its sigma is infinite.
+TEST(CalibrationTomlTest, SigmasThatAreNotFiniteAreLeftOut) {
+  CameraArray array = InventedCameras();
+  array.cameras[0].sigmas.fx_px = HUGE_VAL;
+  array.mirrors[0].distance_sigma_mm = HUGE_VAL;
+  const CameraArray read = OrThrow(ParseCalibration(WriteCalibration(array), "file"));
+  EXPECT_TRUE(std::isnan(read.cameras[0].sigmas.fx_px));
+  EXPECT_EQ(read.cameras[0].sigmas.fy_px, 0.75);
+  EXPECT_TRUE(std::isnan(read.mirrors[0].distance_sigma_mm));
+  EXPECT_EQ(read.mirrors[0].normal_sigma_rad, 0.0002);
+}
+
 // Typed by hand with few digits, a normal is made one long; but not one that is something else.
 TEST(CalibrationTomlTest, NormalsOfMirrorsAreNormalized) {
   const auto read = ParseCalibration(
