@@ -17,7 +17,8 @@ const std::vector<articap::VerbEntry>& Verbs() {
   static const std::vector<articap::VerbEntry> verbs = {
       {"session", "the recordings of a speaker on disk: new, import, info",
        articap::SessionCommand},
-      {"info", "what is in a marker file: markers, rate, frames, gaps, units",
+      {"calibrate", "cameras and their lenses: convert", articap::CalibrateCommand},
+      {"info", "what is in a marker file: markers, rate, frames, gaps, units; in a calibration",
        articap::InfoCommand},
       {"convert", "between marker formats", articap::ConvertCommand},
       {"stabilize", "factor the movement of the head out", articap::StabilizeCommand},

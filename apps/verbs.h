@@ -13,6 +13,8 @@ using Verb = ExitCode (*)(const std::vector<std::string>& arguments);
 
 ExitCode InfoCommand(const std::vector<std::string>& arguments);
 ExitCode ConvertCommand(const std::vector<std::string>& arguments);
+ExitCode CalibrateCommand(const std::vector<std::string>& arguments);
+ExitCode CalibrateConvertCommand(const std::vector<std::string>& arguments);
 ExitCode StabilizeCommand(const std::vector<std::string>& arguments);
 ExitCode MapCommand(const std::vector<std::string>& arguments);
 ExitCode BindCommand(const std::vector<std::string>& arguments);

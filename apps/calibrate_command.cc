@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "apps/verbs.h"
+
+namespace articap {
+
+ExitCode CalibrateCommand(const std::vector<std::string>& arguments) {
+  static const std::vector<VerbEntry> verbs = {
+      {"convert", "between files of calibrated cameras", CalibrateConvertCommand},
+  };
+  return RunVerb("articap calibrate", "Cameras: where they stand and what their lenses do", verbs,
+                 arguments);
+}
+
+}  // namespace articap
