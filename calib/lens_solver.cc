@@ -5,7 +5,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -19,8 +18,10 @@
 namespace articap {
 namespace {
 
-// Chi-square of 1, 2 and 3 degrees of freedom that pure noise exceeds once in 370 times (3 sigmas).
-constexpr std::array<double, 4> kSignificant = {0, 9.0, 11.83, 14.16};
+// Coefficients are kept where they lower Akaike's criterion, 2 a coefficient: leaving out what is
+// there, if only just above the noise, costs more than keeping what is not, and the sigmas of all
+// others would not say so. (H. Akaike, IEEE Trans. Automatic Control 19(6), 1974.)
+constexpr double kWorthOfCoefficient = 2;
 
 // What each model adds to the one before.
 std::vector<int> AddedBy(LensModel model) {
@@ -123,7 +124,7 @@ Result<AdjustedNetwork> StartFromNothing(const BoardSpec& board, const CameraSig
   return *std::move(best);
 }
 
-// Whether the coefficients that the model adds differ from 0 by more than their noise.
+// Whether the coefficients that the model adds are worth their number.
 bool IsSupported(const AdjustedNetwork& adjusted, LensModel model) {
   std::vector<int> columns;
   std::vector<double> values;
@@ -140,7 +141,7 @@ bool IsSupported(const AdjustedNetwork& adjusted, LensModel model) {
     for (int b = 0; b < count; ++b) covariance(a, b) = adjusted.covariance(columns[a], columns[b]);
   if (!covariance.allFinite()) return false;
   const Eigen::Map<const Eigen::VectorXd> value(values.data(), count);
-  return value.dot(covariance.ldlt().solve(value)) > kSignificant[count];
+  return value.dot(covariance.ldlt().solve(value)) > kWorthOfCoefficient * count;
 }
 
 // The network again, without the coefficients that a simpler model does not have.
@@ -230,7 +231,7 @@ void TryRational(SolvedLens& solved, const LensOptions& options) {
   if (!rational.converged || !std::isfinite(rational.sigma_px))
     against = "it does not converge";
   else if (!IsSupported(rational, LensModel::kRational))
-    against = "its coefficients k4, k5, k6 do not differ from 0 by more than their noise";
+    against = "its coefficients k4, k5, k6 are no more than noise";
   else if (!ShowsWholePicture(rational.network.array.cameras[0]))
     against = "it folds the picture over within its edges";
   else if (!(after_px < 0.99 * before_px))

@@ -29,5 +29,97 @@ TEST(LensSolverTest, PerfectCornersGiveTheLensBack) {
   EXPECT_EQ(solved->model, LensModel::kBrown5);
 }
 
+TEST(LensSolverTest, ErrorsAreWhatTheSigmasSay) {
+  LensOptions options;
+  options.simplify = false;
+  double normalized2 = 0;
+  int count = 0;
+  constexpr int kSeeds = 20;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    const NetworkScene scene = LensScene(seed, 15);
+    const auto solved = SolveLens(scene.board, SeeBoards(scene, 0.1, 50 + seed)[0], options);
+    ASSERT_TRUE(solved) << solved.error().message;
+    const Camera& found = solved->adjusted.network.array.cameras[0];
+    const Lens& truth = scene.array.cameras[0].lens;
+    for (const double sigmas :
+         {(found.lens.fx_px - truth.fx_px) / found.sigmas.fx_px,
+          (found.lens.fy_px - truth.fy_px) / found.sigmas.fy_px,
+          (found.lens.cx_px - truth.cx_px) / found.sigmas.cx_px,
+          (found.lens.cy_px - truth.cy_px) / found.sigmas.cy_px,
+          (found.lens.distortion[0] - truth.distortion[0]) / found.sigmas.distortion[0]}) {
+      EXPECT_LT(std::abs(sigmas), 5.5) << "seed " << seed;
+      normalized2 += sigmas * sigmas;
+      ++count;
+    }
+    EXPECT_NEAR(solved->adjusted.sigma_px, 0.1, 0.01);
+  }
+  // fx and fy go together, so that there are about 4 x 20 independent squares: 1 +- 3 sqrt(2 / 80).
+  EXPECT_NEAR(normalized2 / count, 1, 0.48);
+}
+
+TEST(LensSolverTest, CoefficientsThatTheViewsDoNotShowAreLeftOut) {
+  NetworkScene scene = LensScene(3, 15);
+  scene.array.cameras[0].lens.distortion = {-0.1, 0, 0, 0, 0, 0, 0, 0};
+  const auto solved = SolveLens(scene.board, SeeBoards(scene, 0.1, 3)[0], {});
+  ASSERT_TRUE(solved) << solved.error().message;
+  EXPECT_EQ(solved->model, LensModel::kK1);
+  EXPECT_NEAR(solved->adjusted.network.array.cameras[0].lens.distortion[0], -0.1, 0.01);
+}
+
+TEST(LensSolverTest, ARationalModelWithoutSupportIsRefused) {
+  const NetworkScene scene = LensScene(4, 13);
+  LensOptions options;
+  options.model = LensModel::kRational;
+  const auto solved = SolveLens(scene.board, SeeBoards(scene, 0.15, 4)[0], options);
+  ASSERT_TRUE(solved) << solved.error().message;
+  EXPECT_LE(solved->model, LensModel::kBrown5);
+  ASSERT_EQ(solved->warnings.size(), 1U);
+  EXPECT_THAT(solved->warnings[0], HasSubstr("the rational model is refused"));
+}
+
+TEST(LensSolverTest, DisplacedCornersAreNamed) {
+  const NetworkScene scene = LensScene(5, 13);
+  CameraSightings seen = SeeBoards(scene, 0.1, 5)[0];
+  for (int corner : {3, 12, 40}) seen.sightings[7].points_px[corner].x() += 4 + corner / 10.0;
+  const auto lens = CalibrateLens(scene.board, seen, {});
+  ASSERT_TRUE(lens) << lens.error().message;
+  EXPECT_TRUE(lens->report.IsUsable()) << lens->report.verdict;
+  std::vector<std::string> named;
+  for (const SightingResult& sighting : lens->output.sightings)
+    if (!sighting.used) named.push_back(sighting.source + ": " + sighting.reason);
+  ASSERT_EQ(named.size(), 1U);
+  EXPECT_THAT(named[0], HasSubstr("007.png: "));
+  EXPECT_THAT(named[0], HasSubstr("corner 40 by 8.0 px, corner 12 by 5"));
+  EXPECT_NEAR(lens->output.array.cameras[0].lens.fx_px, 533,
+              4 * lens->output.array.cameras[0].sigmas.fx_px);
+}
+
+TEST(LensSolverTest, OtherBoardsCornersMakeNoLens) {
+  // Corners of 8 x 7 instead of 9 x 6, counted as those of the latter.
+  NetworkScene scene = LensScene(6, 12);
+  scene.board = ParseBoardSpec("chessboard:6x9:25").value();
+  const CameraSightings seen = SeeBoards(scene, 0.1, 6)[0];
+  const auto lens = CalibrateLens(ParseBoardSpec("chessboard:9x6:25").value(), seen, {});
+  EXPECT_TRUE(!lens || !lens->report.IsUsable());
+}
+
+TEST(LensSolverTest, ViewsThatAreAllParallelDoNotTellTheFocalLength) {
+  NetworkScene scene = LensScene(7, 12);
+  for (int i = 0; i < static_cast<int>(scene.stage_from_board.size()); ++i)
+    scene.stage_from_board[i] = {Eigen::Quaterniond::Identity(),
+                                 {-150.0 + 4 * i, -80.0 + 3 * i, 500.0}};
+  const auto lens = CalibrateLens(scene.board, SeeBoards(scene, 0.1, 7)[0], {});
+  ASSERT_TRUE(lens) << lens.error().message;
+  EXPECT_FALSE(lens->report.IsUsable());
+  EXPECT_THAT(lens->report.verdict, HasSubstr("the views are too parallel"));
+}
+
+TEST(LensSolverTest, AFewPicturesAreNotEnough) {
+  const NetworkScene scene = LensScene(8, 2);
+  const auto lens = CalibrateLens(scene.board, SeeBoards(scene, 0.1, 8)[0], {});
+  ASSERT_FALSE(lens);
+  EXPECT_THAT(lens.error().message, HasSubstr("was found in 2 pictures"));
+}
+
 }  // namespace
 }  // namespace articap

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <random>
 
 #include "tests/calib/network_scene.h"
 
@@ -136,6 +138,112 @@ TEST_P(RigStatisticsTest, ErrorsAreWhatTheSigmasSay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cameras, RigStatisticsTest, testing::Values(2, 4, 8));
+
+TEST(RigCalibrationTest, CamerasThatNothingLinksAreNamed) {
+  const NetworkScene scene = RigScene(2, 3, 24);
+  std::vector<CameraSightings> seen = SeeBoards(scene, 0.1, 2);
+  for (BoardSighting& sighting : seen[2].sightings) sighting.frame += 1000;
+  const auto rig = CalibrateRig(scene.board, seen, {}, {});
+  ASSERT_FALSE(rig);
+  EXPECT_THAT(rig.error().message, HasSubstr("cam2 never sees the board at the same time as cam0"));
+}
+
+TEST(RigCalibrationTest, CamerasThatNeverMeetAreLinkedThroughAThird) {
+  const NetworkScene scene = RigScene(3, 3, 40);
+  std::vector<CameraSightings> seen = SeeBoards(scene, 0.05, 3);
+  // The first camera looks at even placements only, the last at odd ones, the second at all.
+  std::erase_if(seen[0].sightings, [](const BoardSighting& s) { return s.frame % 2 != 0; });
+  std::erase_if(seen[2].sightings, [](const BoardSighting& s) { return s.frame % 2 == 0; });
+  const auto rig = CalibrateRig(scene.board, seen, {}, {});
+  ASSERT_TRUE(rig) << rig.error().message;
+  for (int i : {1, 2}) {
+    const Camera& found = rig->output.array.cameras[i];
+    const Rigid3d& truth = scene.array.cameras[i].cam_from_stage;
+    EXPECT_LT((found.cam_from_stage.translation_mm - truth.translation_mm).norm(),
+              5 * found.sigmas.translation_mm.norm());
+  }
+}
+
+TEST(RigCalibrationTest, PicturesPairedWrongAreRefused) {
+  const NetworkScene scene = RigScene(4, 2, 20);
+  std::vector<CameraSightings> seen = SeeBoards(scene, 0.1, 4);
+  for (BoardSighting& sighting : seen[1].sightings) sighting.frame = (sighting.frame + 1) % 20;
+  const auto rig = CalibrateRig(scene.board, seen, {}, {});
+  EXPECT_TRUE(!rig || !rig->report.IsUsable());
+  if (!rig) {
+    EXPECT_THAT(rig.error().message, HasSubstr("same instants"));
+  }
+}
+
+TEST(RigCalibrationTest, BoardsThatLookTheSameUpsideDownAreRefused) {
+  const auto rig = CalibrateRig(ParseBoardSpec("chessboard:8x6:25").value(), {{}, {}}, {}, {});
+  ASSERT_FALSE(rig);
+  EXPECT_THAT(rig.error().message, HasSubstr("looks the same upside down"));
+}
+
+TEST(RigCalibrationTest, ACameraWithoutViewsIsNamed) {
+  const NetworkScene scene = RigScene(5, 2, 12);
+  std::vector<CameraSightings> seen = SeeBoards(scene, 0.1, 5);
+  seen[1].sightings.clear();
+  const auto rig = CalibrateRig(scene.board, seen, {}, {});
+  ASSERT_FALSE(rig);
+  EXPECT_THAT(rig.error().message, HasSubstr("cam1: no picture shows the board"));
+}
+
+// A board that is moved slowly before cameras whose clocks differ.
+TEST(RigCalibrationTest, TimeOffsetsOfAMovingBoardComeOut) {
+  constexpr double kRate_hz = 30;
+  NetworkScene scene = RigScene(6, 3, 1);
+  const std::array<double, 3> offsets_s = {0, 0.011, -0.014};
+  std::mt19937 random(6);
+  std::normal_distribution<double> noise(0, 0.1);
+  std::vector<CameraSightings> seen;
+  for (int i = 0; i < 3; ++i) {
+    const Camera& camera = scene.array.cameras[i];
+    CameraSightings& sightings =
+        seen.emplace_back(CameraSightings{camera.name, camera.width, camera.height, {}, {}});
+    for (int frame = 0; frame < 120; ++frame) {
+      BoardSighting sighting;
+      sighting.frame = frame;
+      sighting.time = TimeOfFrame(frame, kRate_hz);
+      const double t = SecondsOf(sighting.time) + offsets_s[i];
+      const Eigen::Quaterniond turn =
+          Eigen::AngleAxisd(0.6 + 0.5 * std::sin(2.1 * t), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(0.4 * std::sin(1.7 * t + 1), Eigen::Vector3d::UnitX());
+      const Eigen::Vector3d middle{60 * std::sin(1.3 * t), 50 * std::cos(1.9 * t),
+                                   800 + 60 * std::sin(1.1 * t)};
+      const Rigid3d pose{turn, middle - turn * Eigen::Vector3d{80, 50, 0}};
+      bool visible = true;
+      for (int corner = 0; corner < scene.board.num_corners() && visible; ++corner) {
+        const auto point = Project(
+            camera.lens, camera.cam_from_stage * (pose * scene.board.corner_in_board_mm(corner)));
+        visible = point.has_value();
+        if (!visible) break;
+        sighting.corners.push_back(corner);
+        sighting.points_px.push_back(*point + Eigen::Vector2d{noise(random), noise(random)});
+      }
+      if (visible) sightings.sightings.push_back(std::move(sighting));
+    }
+  }
+  RigOptions options;
+  options.free_time_offsets = true;
+  LensOptions lens;
+  lens.model = LensModel::kBrown4;  // the truth
+  lens.simplify = false;
+  const auto rig = CalibrateRig(scene.board, seen, lens, options);
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_TRUE(rig->report.IsUsable()) << rig->report.BriefReport();
+  for (int i : {1, 2}) {
+    const Camera& found = rig->output.array.cameras[i];
+    EXPECT_NEAR(found.time_offset_s, offsets_s[i], 0.02 / kRate_hz);
+    EXPECT_NEAR(found.time_offset_s, offsets_s[i], 5 * found.sigmas.time_offset_s);
+    EXPECT_LT(
+        (found.cam_from_stage.translation_mm - scene.array.cameras[i].cam_from_stage.translation_mm)
+            .norm(),
+        5 * found.sigmas.translation_mm.norm());
+  }
+  EXPECT_NEAR(rig->output.sigma_px, 0.1, 0.01);
+}
 
 }  // namespace
 }  // namespace articap
