@@ -21,5 +21,6 @@ inline constexpr std::uint64_t kSensor = 12;
 inline constexpr std::uint64_t kCameras = 13;
 inline constexpr std::uint64_t kBoardPoses = 14;
 inline constexpr std::uint64_t kWandPath = 15;
+inline constexpr std::uint64_t kClocks = 16;
 
 }  // namespace articap::random_streams
