@@ -58,9 +58,10 @@ Kernel DiscKernel(double radius_px) {
   for (int y = -reach; y <= reach; ++y)
     for (int x = -reach; x <= reach; ++x) {
       int covered = 0;
-      for (int i = 0; i < kPoints * kPoints; ++i)
-        covered += std::hypot(x - 0.5 + (i % kPoints + 0.5) / kPoints,
-                              y - 0.5 + (i / kPoints + 0.5) / kPoints) <= radius_px;
+      for (int row = 0; row < kPoints; ++row)
+        for (int column = 0; column < kPoints; ++column)
+          covered += std::hypot(x - 0.5 + (column + 0.5) / kPoints,
+                                y - 0.5 + (row + 0.5) / kPoints) <= radius_px;
       kernel.weights.push_back(static_cast<float>(covered));
     }
   kernel.Normalise();
