@@ -119,13 +119,14 @@ TEST(SensorTest, BlurSpreadsAPointAsFarAsAsked) {
   point.rgb[25 * 61 + 30] = Eigen::Vector3f::Ones();
   const std::vector<double> values = ValuesOf(Expose(point, options, 1));
   double light = 0, x1 = 0, x2 = 0, y2 = 0;
-  for (int i = 0; i < 61 * 51; ++i) {
-    const double dx = i % 61 - 30, dy = i / 61 - 25;
-    light += values[i];
-    x1 += values[i] * dx;
-    x2 += values[i] * dx * dx;
-    y2 += values[i] * dy * dy;
-  }
+  for (int y = 0; y < 51; ++y)
+    for (int x = 0; x < 61; ++x) {
+      const double value = values[y * 61 + x], dx = x - 30, dy = y - 25;
+      light += value;
+      x1 += value * dx;
+      x2 += value * dx * dx;
+      y2 += value * dy * dy;
+    }
   const double variance_px2 = 1.3 * 1.3 + 3.2 * 3.2 / 4 + 1.0 / 12;
   EXPECT_NEAR(light, 1, 0.005);
   EXPECT_NEAR(x1 / light, 0, 0.005);
