@@ -30,7 +30,7 @@ struct ViewTruth {
 class Studio {
  public:
   // samples_per_side: of a pixel on an edge. Sampling moves a corner of a board by some 0.008 px
-  // with 8, below what the noise of a good sensor does, and by 0.02 px with 4, in a third of the
+  // with 8, below what the noise of a good sensor does, and by 0.02 px with 4, in half the
   // time.
   explicit Studio(SyntheticCameras cameras, int samples_per_side = 8);
 
