@@ -11,6 +11,21 @@
 #include "core/file_io.h"
 
 namespace articap {
+namespace {
+
+png_uint_32 PngFormatOf(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::kGray8:
+      return PNG_FORMAT_GRAY;
+    case PixelFormat::kGray16:
+      return PNG_FORMAT_LINEAR_Y;
+    case PixelFormat::kRgb8:
+      break;
+  }
+  return PNG_FORMAT_RGB;
+}
+
+}  // namespace
 
 Picture FilledPicture(int width, int height, const Eigen::Vector3f& linear_color) {
   Picture picture{width, height,
@@ -37,26 +52,39 @@ Picture EncodeSrgb(const LinearPicture& linear) {
 }
 
 Result<std::string> EncodePng(const Picture& picture) {
-  ARTICAP_CHECK(picture.width > 0 && picture.height > 0);
   ARTICAP_CHECK_EQ(picture.rgb8.size(),
                    3 * static_cast<std::size_t>(picture.width) * picture.height);
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(picture.width);
-  image.height = static_cast<png_uint_32>(picture.height);
-  image.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::string bytes(size, '\0');
-  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.rgb8.data(), 0, nullptr) ==
-      0)
-    return Fail(fmt::format("a picture of {} x {} pixels cannot become a PNG: {}", picture.width,
-                            picture.height, image.message));
-  bytes.resize(size);
-  return bytes;
+  return EncodePng(ImageView{PixelFormat::kRgb8, picture.width, picture.height,
+                             static_cast<std::ptrdiff_t>(picture.width) * 3, picture.rgb8.data()});
 }
 
 Result<void> WritePng(const Picture& picture, const std::filesystem::path& path) {
   const auto bytes = EncodePng(picture);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return WriteFile(path, *bytes);
+}
+
+Result<std::string> EncodePng(const ImageView& image) {
+  ARTICAP_CHECK(image.width > 0 && image.height > 0);
+  const int bytes_per_component = image.format == PixelFormat::kGray16 ? 2 : 1;
+  ARTICAP_CHECK_EQ(image.stride_bytes % bytes_per_component, 0);
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.width);
+  png.height = static_cast<png_uint_32>(image.height);
+  png.format = PngFormatOf(image.format);
+  const auto stride = static_cast<png_int_32>(image.stride_bytes / bytes_per_component);
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.data, stride, nullptr) == 0)
+    return Fail(fmt::format("a picture of {} x {} pixels cannot become a PNG: {}", image.width,
+                            image.height, png.message));
+  bytes.resize(size);
+  return bytes;
+}
+
+Result<void> WritePng(const ImageView& image, const std::filesystem::path& path) {
+  const auto bytes = EncodePng(image);
   if (!bytes) return tl::unexpected(bytes.error());
   return WriteFile(path, *bytes);
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/image.h"
 #include "core/result.h"
 
 namespace articap {
@@ -42,6 +43,9 @@ Picture EncodeSrgb(const LinearPicture& linear);
 // The bytes of a PNG file.
 Result<std::string> EncodePng(const Picture& picture);
 Result<void> WritePng(const Picture& picture, const std::filesystem::path& path);
+// The same of what cameras deliver: grey with 8 or 16 bits, or RGB; the values as they are.
+Result<std::string> EncodePng(const ImageView& image);
+Result<void> WritePng(const ImageView& image, const std::filesystem::path& path);
 
 // Any PNG as 8-bit RGB; an alpha channel is laid over black.
 Result<Picture> DecodePng(std::string_view bytes);

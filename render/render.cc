@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "render/render.h"
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <memory>
 #include <numbers>
 #include <thread>
 
 #include "core/check.h"
+#include "render/traced_scene.h"
 
 namespace articap {
 namespace {
@@ -21,27 +18,13 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// Rays that leave a surface start this far off it, so that they do not meet it again.
-constexpr float kLiftOff_mm = 0.02f;
-// How far over its triangle the curved surface of smooth normals may rise.
-constexpr float kMaxBulge_mm = 0.4f;
-// Smooth normals further from the triangle's own than its angle are not used.
-constexpr float kMinSmoothCosine = 0.2f;
-
-// A point of a surface that a ray of sight has found.
-struct SurfacePoint {
-  Vector3f position_mm;
-  Vector3f start_mm;  // where shadow rays start
-  Vector3f normal;    // smooth, unit, towards the viewer
-  Vector3f color;
-  const Material* material = nullptr;
-};
-
 // Evenly spread numbers in [0, 1)^2 from an index: the R2 sequence of Roberts (2018), shifted by a
 // hash of the pixel so that neighbouring pixels do not share a pattern.
 class SampleSequence {
  public:
+  // What the numbers are for: 0 for the ambient light, from 1 on for the lamps.
+  static constexpr int kInPixel = 15;
+
   SampleSequence(int x, int y) {
     std::uint32_t hash = static_cast<std::uint32_t>(x) * 0x9E3779B1u ^
                          (static_cast<std::uint32_t>(y) * 0x85EBCA77u + 0x27D4EB2Fu);
@@ -60,7 +43,7 @@ class SampleSequence {
   }
 
  private:
-  static constexpr int kNumShifts = 16;
+  static constexpr int kNumShifts = 32;
   float shift_[kNumShifts];
 };
 
@@ -73,152 +56,6 @@ void Complete(const Vector3f& axis, Vector3f& first, Vector3f& second) {
   second = Vector3f(b, sign + axis.y() * axis.y() * a, -axis.y());
 }
 
-// The scene in Embree's hands. Coordinates are float32: at 1 m a step of 0.0001 mm.
-class TracedScene {
- public:
-  explicit TracedScene(const Scene& scene)
-      : scene_(scene), device_(rtcNewDevice("threads=1")), traced_(rtcNewScene(device_.get())) {
-    ARTICAP_CHECK(device_ != nullptr);
-    rtcSetSceneFlags(traced_.get(), RTC_SCENE_FLAG_ROBUST);
-    for (const RenderMesh& mesh : scene.meshes) AddMesh(mesh);
-    AddSpheres(scene.spheres);
-    rtcCommitScene(traced_.get());
-  }
-
-  // Nearest surface along a ray; false where there is none.
-  bool FindSurface(const Vector3f& origin_mm, const Vector3f& direction,
-                   SurfacePoint& surface) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit query{};
-    SetRay(query.ray, origin_mm, direction, kInfinity);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(traced_.get(), &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    surface.position_mm = origin_mm + query.ray.tfar * direction;
-    if (query.hit.geomID < scene_.meshes.size())
-      DescribeTriangle(query.hit, direction, surface);
-    else
-      DescribeSphere(query.hit, surface);
-    return true;
-  }
-
-  bool IsBlocked(const Vector3f& origin_mm, const Vector3f& direction, float distance_mm) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay ray{};
-    SetRay(ray, origin_mm, direction, distance_mm);
-    rtcOccluded1(traced_.get(), &context, &ray);
-    return ray.tfar < 0;
-  }
-
- private:
-  struct ReleaseDevice {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  };
-  struct ReleaseScene {
-    void operator()(RTCScene traced) const { rtcReleaseScene(traced); }
-  };
-
-  static void SetRay(RTCRay& ray, const Vector3f& origin_mm, const Vector3f& direction,
-                     float distance_mm) {
-    ray.org_x = origin_mm.x();
-    ray.org_y = origin_mm.y();
-    ray.org_z = origin_mm.z();
-    ray.dir_x = direction.x();
-    ray.dir_y = direction.y();
-    ray.dir_z = direction.z();
-    ray.tnear = 0;
-    ray.tfar = distance_mm;
-    ray.mask = 0xFFFFFFFFu;
-  }
-
-  void Attach(RTCGeometry geometry, std::size_t id) {
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(traced_.get(), geometry, static_cast<unsigned>(id));
-    rtcReleaseGeometry(geometry);
-  }
-
-  void AddMesh(const RenderMesh& mesh) {
-    const auto& [vertices, triangles] = mesh.mesh;
-    ARTICAP_CHECK_EQ(mesh.colors.size(), vertices.size());
-    normals_.push_back(mesh.normals.empty() ? VertexNormals(mesh.mesh) : mesh.normals);
-    ARTICAP_CHECK_EQ(normals_.back().size(), vertices.size());
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* positions = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                3 * sizeof(float), std::max<std::size_t>(1, vertices.size())));
-    for (const Eigen::Vector3d& vertex : vertices)
-      for (int axis = 0; axis < 3; ++axis) *positions++ = static_cast<float>(vertex[axis]);
-    auto* corners = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), triangles.size()));
-    for (const Eigen::Vector3i& triangle : triangles)
-      for (const int corner : {triangle[0], triangle[1], triangle[2]})
-        *corners++ = static_cast<std::uint32_t>(corner);
-    Attach(geometry, normals_.size() - 1);
-  }
-
-  void AddSpheres(const std::vector<RenderSphere>& spheres) {
-    if (spheres.empty()) return;
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    auto* values = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), spheres.size()));
-    for (const RenderSphere& sphere : spheres) {
-      for (int axis = 0; axis < 3; ++axis) *values++ = static_cast<float>(sphere.center_mm[axis]);
-      *values++ = static_cast<float>(sphere.radius_mm);
-    }
-    Attach(geometry, scene_.meshes.size());
-  }
-
-  // Smooth normal and colour. Shadow rays start on the curved surface that the normals describe
-  // (Hanika, "Hacking the shadow terminator", 2021), else coarse triangles shadow themselves.
-  void DescribeTriangle(const RTCHit& hit, const Vector3f& direction, SurfacePoint& surface) const {
-    const RenderMesh& mesh = scene_.meshes[hit.geomID];
-    const Eigen::Vector3i& triangle = mesh.mesh.triangles[hit.primID];
-    const float weights[3] = {1 - hit.u - hit.v, hit.u, hit.v};
-    Vector3f facet_normal = Vector3f(hit.Ng_x, hit.Ng_y, hit.Ng_z).normalized();
-    const float side = facet_normal.dot(direction) > 0 ? -1.0f : 1.0f;
-    facet_normal *= side;
-    Vector3f normal = Vector3f::Zero();
-    Vector3f color = Vector3f::Zero();
-    Vector3f bulge = Vector3f::Zero();
-    for (const int corner : {0, 1, 2}) {
-      const int vertex = triangle[corner];
-      Vector3f corner_normal = side * normals_[hit.geomID][vertex].cast<float>();
-      // Over sharp edges and folds a smooth normal says nothing about this triangle.
-      if (corner_normal.dot(facet_normal) < kMinSmoothCosine) corner_normal = facet_normal;
-      const Vector3f arm = surface.position_mm - mesh.mesh.vertices[vertex].cast<float>();
-      bulge -= weights[corner] * std::min(0.0f, arm.dot(corner_normal)) * corner_normal;
-      normal += weights[corner] * corner_normal;
-      color += weights[corner] * mesh.colors[vertex];
-    }
-    surface.normal = normal.norm() > 0 ? normal.normalized() : facet_normal;
-    // Seen from the front, a smooth normal must not point away from the viewer.
-    const float away = surface.normal.dot(direction);
-    if (away > 0) surface.normal = (surface.normal - 1.001f * away * direction).normalized();
-    surface.color = color;
-    surface.material = &mesh.material;
-    // At sharp edges the curved surface is a fiction that reaches through thin walls.
-    const float height_mm = bulge.norm();
-    if (height_mm > kMaxBulge_mm) bulge *= kMaxBulge_mm / height_mm;
-    surface.start_mm = surface.position_mm + bulge + kLiftOff_mm * facet_normal;
-  }
-
-  void DescribeSphere(const RTCHit& hit, SurfacePoint& surface) const {
-    const RenderSphere& sphere = scene_.spheres[hit.primID];
-    surface.normal = (surface.position_mm - sphere.center_mm.cast<float>()).normalized();
-    surface.color = sphere.color;
-    surface.material = &sphere.material;
-    surface.start_mm = surface.position_mm + kLiftOff_mm * surface.normal;
-  }
-
-  const Scene& scene_;
-  std::vector<std::vector<Eigen::Vector3d>> normals_;
-  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
-  std::unique_ptr<RTCSceneTy, ReleaseScene> traced_;
-};
-
 class Shader {
  public:
   Shader(const Scene& scene, const RenderOptions& options)
@@ -226,17 +63,16 @@ class Shader {
 
   // Light that comes back along a ray of sight. index: which of the pixel's samples this is.
   Vector3f Light(const SightRay& ray, const SampleSequence& sequence, int index) const {
-    const Vector3f direction = ray.direction.cast<float>();
-    SurfacePoint surface;
-    if (!traced_.FindSurface(ray.origin_mm.cast<float>(), direction, surface))
-      return scene_.background;
+    const SightEnd end = traced_.Follow(ray);
+    if (!end.surface) return end.transmission * end.color;
+    const SurfacePoint& surface = *end.surface;
     Vector3f diffuse = surface.material->glow * Vector3f::Ones();
     diffuse += AmbientLight(surface, sequence.Sample(index, 0));
     Vector3f highlight = Vector3f::Zero();
     for (std::size_t i = 0; i < scene_.lights.size(); ++i)
-      AddLamp(scene_.lights[i], surface, direction, sequence.Sample(index, 1 + static_cast<int>(i)),
-              diffuse, highlight);
-    return diffuse.cwiseProduct(surface.color) + highlight;
+      AddLamp(scene_.lights[i], surface, end.direction,
+              sequence.Sample(index, 1 + static_cast<int>(i)), diffuse, highlight);
+    return end.transmission * (diffuse.cwiseProduct(surface.color) + highlight);
   }
 
  private:
@@ -256,17 +92,22 @@ class Shader {
            scene_.ambient.cwiseProduct(Vector3f(0.35f, 0.2f, 0.16f));
   }
 
-  void AddLamp(const DirectionalLight& light, const SurfacePoint& surface,
-               const Vector3f& direction, const Vector2f& random, Vector3f& diffuse,
-               Vector3f& highlight) const {
+  // A direction to a point of the lamp's disc.
+  static Vector3f TowardsLamp(const DirectionalLight& light, const Vector2f& random) {
     const Vector3f axis = light.towards_light.normalized().cast<float>();
+    if (light.angular_radius_rad == 0) return axis;
     Vector3f first, second;
     Complete(axis, first, second);
     const float radius =
         std::sqrt(random.x()) * static_cast<float>(std::tan(light.angular_radius_rad));
     const float angle = 2 * std::numbers::pi_v<float> * random.y();
-    const Vector3f towards =
-        (axis + radius * (std::cos(angle) * first + std::sin(angle) * second)).normalized();
+    return (axis + radius * (std::cos(angle) * first + std::sin(angle) * second)).normalized();
+  }
+
+  void AddLamp(const DirectionalLight& light, const SurfacePoint& surface,
+               const Vector3f& direction, const Vector2f& random, Vector3f& diffuse,
+               Vector3f& highlight) const {
+    const Vector3f towards = TowardsLamp(light, random);
     const float cosine = surface.normal.dot(towards);
     // Wrapped Lambert: how far light reaches beyond the terminator, per channel.
     const Vector3f wrap = surface.material->translucence * Vector3f(0.35f, 0.16f, 0.10f);
@@ -275,7 +116,7 @@ class Shader {
             .max(0.0f)
             .matrix();
     if (lambert.x() <= 0) return;
-    if (options_.shadows && traced_.IsBlocked(surface.start_mm, towards, kInfinity)) return;
+    if (options_.shadows && traced_.IsBlocked(surface.start_mm, towards)) return;
     diffuse += light.radiance.cwiseProduct(lambert);
     if (cosine <= 0 || surface.material->gloss <= 0) return;
     const Vector3f halfway = (towards - direction).normalized();
@@ -293,20 +134,77 @@ class Shader {
   TracedScene traced_;
 };
 
-Vector3f PixelLight(const Shader& shader, const Scene& scene, const ViewCamera& camera,
-                    int samples_per_side, int x, int y) {
-  const SampleSequence sequence(x, y);
-  Vector3f sum = Vector3f::Zero();
-  int index = 0;
-  for (int row = 0; row < samples_per_side; ++row) {
-    for (int column = 0; column < samples_per_side; ++column, ++index) {
-      const Eigen::Vector2d point_px(x - 0.5 + (column + 0.5) / samples_per_side,
-                                     y - 0.5 + (row + 0.5) / samples_per_side);
-      const auto ray = camera.RayThrough(point_px);
-      sum += ray ? shader.Light(*ray, sequence, index) : scene.background;
-    }
+// Where in its pixel each sample lies, in [-0.5, 0.5)^2: one in every cell, and in every one of the
+// rows and columns that are as many as the samples (Chiu, Shirley and Wang, "Multi-jittered
+// sampling", 1994), the whole shifted around the pixel at random. So an edge is placed without
+// bias, also one along a row or a column of pixels. A single sample is the middle.
+Eigen::Vector2d PlaceInPixel(int row, int column, int per_side, const Vector2f& shift) {
+  if (per_side == 1) return Eigen::Vector2d::Zero();
+  const double x = shift.x() + (column + (row + 0.5) / per_side) / per_side;
+  const double y = shift.y() + (row + (column + 0.5) / per_side) / per_side;
+  return {x - std::floor(x) - 0.5, y - std::floor(y) - 0.5};
+}
+
+// Renders rows of a picture; knows how many samples a pixel needs.
+class PixelSampler {
+ public:
+  PixelSampler(const Scene& scene, const ViewCamera& camera, const RenderOptions& options)
+      : scene_(scene), camera_(camera), options_(options), shader_(scene, options) {}
+
+  // What the middle of a pixel sees.
+  Vector3f Middle(int x, int y) const {
+    return LightAt(Eigen::Vector2d(x, y), SampleSequence(x, y), 0);
   }
-  return sum / static_cast<float>(index);
+
+  Vector3f Average(int x, int y) const {
+    const SampleSequence sequence(x, y);
+    const Vector2f shift = sequence.Sample(0, SampleSequence::kInPixel);
+    Vector3f sum = Vector3f::Zero();
+    int index = 0;
+    for (int row = 0; row < options_.samples_per_side; ++row)
+      for (int column = 0; column < options_.samples_per_side; ++column, ++index)
+        sum += LightAt(
+            Eigen::Vector2d(x, y) + PlaceInPixel(row, column, options_.samples_per_side, shift),
+            sequence, index);
+    return sum / static_cast<float>(index);
+  }
+
+ private:
+  Vector3f LightAt(const Eigen::Vector2d& point_px, const SampleSequence& sequence,
+                   int index) const {
+    const auto ray = camera_.RayThrough(point_px);
+    return ray ? shader_.Light(*ray, sequence, index) : scene_.background;
+  }
+
+  const Scene& scene_;
+  const ViewCamera& camera_;
+  const RenderOptions& options_;
+  Shader shader_;
+};
+
+// Whether a pixel and its eight neighbours differ by less than this in every colour. At the border
+// of the picture, where not all are there, they count as different.
+bool IsUniform(const LinearPicture& middles, int x, int y, double less_than) {
+  if (x == 0 || y == 0 || x == middles.width - 1 || y == middles.height - 1) return false;
+  const Vector3f& middle = middles.rgb[static_cast<std::size_t>(y) * middles.width + x];
+  for (int row = y - 1; row <= y + 1; ++row)
+    for (int column = x - 1; column <= x + 1; ++column) {
+      const Vector3f& other = middles.rgb[static_cast<std::size_t>(row) * middles.width + column];
+      if (!((other - middle).cwiseAbs().maxCoeff() < less_than)) return false;
+    }
+  return true;
+}
+
+// Calls fill_row(y) for every row of a picture, in several threads.
+template <class FillRow>
+void ForEachRow(int height, int num_threads, const FillRow& fill_row) {
+  std::atomic<int> next_row = 0;
+  const auto fill_rows = [&] {
+    for (int y = next_row++; y < height; y = next_row++) fill_row(y);
+  };
+  std::vector<std::jthread> helpers;
+  for (int i = 1; i < num_threads; ++i) helpers.emplace_back(fill_rows);
+  fill_rows();
 }
 
 }  // namespace
@@ -323,20 +221,25 @@ LinearPicture RenderLinear(const Scene& scene, const ViewCamera& camera,
   const int width = camera.width();
   const int height = camera.height();
   ARTICAP_CHECK(width > 0 && height > 0);
+  const PixelSampler sampler(scene, camera, options);
+  LinearPicture middles{width, height, {}};
+  if (options.one_sample_below > 0) {
+    middles.rgb.resize(static_cast<std::size_t>(width) * height);
+    ForEachRow(height, options.num_threads, [&](int y) {
+      for (int x = 0; x < width; ++x)
+        middles.rgb[static_cast<std::size_t>(y) * width + x] = sampler.Middle(x, y);
+    });
+  }
   LinearPicture picture{width, height, {}};
   picture.rgb.resize(static_cast<std::size_t>(width) * height);
-  const Shader shader(scene, options);
-  std::atomic<int> next_row = 0;
-  const auto render_rows = [&] {
-    for (int y = next_row++; y < height; y = next_row++)
-      for (int x = 0; x < width; ++x)
-        picture.rgb[static_cast<std::size_t>(y) * width + x] =
-            PixelLight(shader, scene, camera, options.samples_per_side, x, y);
-  };
-  std::vector<std::jthread> helpers;
-  for (int i = 1; i < options.num_threads; ++i) helpers.emplace_back(render_rows);
-  render_rows();
-  helpers.clear();
+  ForEachRow(height, options.num_threads, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * width + x;
+      const bool enough =
+          options.one_sample_below > 0 && IsUniform(middles, x, y, options.one_sample_below);
+      picture.rgb[pixel] = enough ? middles.rgb[pixel] : sampler.Average(x, y);
+    }
+  });
   return picture;
 }
 

@@ -18,8 +18,9 @@ class RandomGenerator {
   double Uniform();  // in [0, 1), 53 bits
   double Uniform(double min, double max) { return min + (max - min) * Uniform(); }
   bool Happens(double probability) { return Uniform() < probability; }
-  int Index(int count);  // 0 .. count - 1
-  double Normal();       // mean 0, SD 1 (Marsaglia's polar method)
+  int Index(int count);      // 0 .. count - 1
+  double Normal();           // mean 0, SD 1 (Marsaglia's polar method)
+  int Poisson(double mean);  // mean at most 1e9
   Eigen::Vector3d NormalVector();
   Eigen::Vector3d Direction();  // uniform on the unit sphere
 

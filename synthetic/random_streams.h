@@ -17,5 +17,10 @@ inline constexpr std::uint64_t kDropouts = 8;
 inline constexpr std::uint64_t kOutliers = 9;
 inline constexpr std::uint64_t kSwaps = 10;
 inline constexpr std::uint64_t kGaps = 11;
+inline constexpr std::uint64_t kSensor = 12;
+inline constexpr std::uint64_t kCameras = 13;
+inline constexpr std::uint64_t kBoardPoses = 14;
+inline constexpr std::uint64_t kWandPath = 15;
+inline constexpr std::uint64_t kClocks = 16;
 
 }  // namespace articap::random_streams

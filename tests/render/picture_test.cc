@@ -2,8 +2,12 @@
 #include "render/picture.h"
 
 #include <gmock/gmock.h>
+#include <png.h>
 
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <vector>
 
 #include "core/file_io.h"
 #include "tests/support/test_data.h"
@@ -29,6 +33,38 @@ TEST(Picture, PngHoldsEveryByte) {
   EXPECT_EQ(read->width, 37);
   EXPECT_EQ(read->height, 21);
   EXPECT_EQ(read->rgb8, picture.rgb8);
+}
+
+TEST(Picture, GreyPngHoldsEveryByte) {
+  Image grey(PixelFormat::kGray8, 23, 9);
+  for (std::size_t i = 0; i < grey.bytes.size(); ++i)
+    grey.bytes[i] = static_cast<std::uint8_t>(i * 41 + i / 7);
+  const auto bytes = EncodePng(grey.view());
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  const auto read = DecodePng(*bytes);
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->rgb8.size(), 3 * grey.bytes.size());
+  for (std::size_t i = 0; i < grey.bytes.size(); ++i)
+    for (const std::size_t channel : {0, 1, 2})
+      ASSERT_EQ(read->rgb8[3 * i + channel], grey.bytes[i]) << "byte " << i;
+}
+
+TEST(Picture, SixteenBitsStaySixteenBits) {
+  Image deep(PixelFormat::kGray16, 5, 3);
+  std::vector<std::uint16_t> values(15);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(i * 4369);
+  std::memcpy(deep.bytes.data(), values.data(), deep.bytes.size());
+  const auto bytes = EncodePng(deep.view());
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  EXPECT_EQ((*bytes)[24], 16);  // IHDR: bits a sample
+  EXPECT_EQ((*bytes)[25], 0);   // IHDR: grey
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  ASSERT_TRUE(png_image_begin_read_from_memory(&png, bytes->data(), bytes->size()));
+  png.format = PNG_FORMAT_LINEAR_Y;
+  std::vector<std::uint16_t> read(values.size());
+  ASSERT_TRUE(png_image_finish_read(&png, nullptr, read.data(), 0, nullptr));
+  EXPECT_EQ(read, values);
 }
 
 TEST(Picture, DamagedPngIsRefused) {

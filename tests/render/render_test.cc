@@ -141,9 +141,17 @@ TEST(Render, BytesDoNotDependOnThreadsOrRepetition) {
   for (int i = 0; i < 12; ++i)
     scene.spheres.push_back({{4.0 * i - 20, 3.0 * (i % 5), 4}, 3, {0.2f, 0.5f, 0.7f}});
   const PinholeView camera({{80, 60, 300}, {0, 0, 0}}, 80, 96, 64);
-  const Picture once = Render(scene, camera, {.num_threads = 1});
-  EXPECT_EQ(Render(scene, camera, {.num_threads = 1}).rgb8, once.rgb8);
-  EXPECT_EQ(Render(scene, camera, {.num_threads = 3}).rgb8, once.rgb8);
+  scene.mirrors.push_back({.center_mm = {0, 40, 10},
+                           .normal = Eigen::Vector3d(0, 1, -1).normalized(),
+                           .width_mm = 60,
+                           .height_mm = 30});
+  for (const double one_sample_below : {0.0, 0.01}) {
+    RenderOptions options{.one_sample_below = one_sample_below, .num_threads = 1};
+    const Picture once = Render(scene, camera, options);
+    EXPECT_EQ(Render(scene, camera, options).rgb8, once.rgb8);
+    options.num_threads = 3;
+    EXPECT_EQ(Render(scene, camera, options).rgb8, once.rgb8);
+  }
 }
 
 TEST(Render, PixelsThatSeeNothingShowTheBackground) {

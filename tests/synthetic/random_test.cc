@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -60,6 +61,27 @@ TEST(RandomGeneratorTest, IndexIsUniform) {
   const double expected = kNumDraws / 7.0;
   for (const int count : counts) chi_square += (count - expected) * (count - expected) / expected;
   EXPECT_LT(chi_square, 22.5);  // 99.9 % of the chi-square distribution with 6 degrees of freedom
+}
+
+// Against the probabilities themselves, on both sides of where the method changes.
+TEST(RandomGeneratorTest, PoissonCountsComeAsOftenAsTheyShould) {
+  constexpr int kMost = 100;
+  for (const double mean : {0.3, 9.5, 10.5, 40.0}) {
+    RandomGenerator random(5, 1);
+    std::array<int, kMost> counts{};
+    for (int i = 0; i < kNumDraws; ++i) ++counts[std::min(kMost - 1, random.Poisson(mean))];
+    double chi_square = 0;
+    int freedom = 0;
+    for (int k = 0; k < kMost; ++k) {
+      const double expected = kNumDraws * std::exp(k * std::log(mean) - mean - std::lgamma(k + 1));
+      if (expected < 20) continue;
+      chi_square += (counts[k] - expected) * (counts[k] - expected) / expected;
+      ++freedom;
+    }
+    // Chi-square has the SD sqrt(2 n); its tail is longer than a normal one's, hence five.
+    EXPECT_LT(chi_square, freedom + 5 * std::sqrt(2.0 * freedom)) << mean;
+  }
+  EXPECT_EQ(RandomGenerator(1, 1).Poisson(0), 0);
 }
 
 }  // namespace
