@@ -17,6 +17,7 @@ const std::vector<articap::VerbEntry>& Verbs() {
   static const std::vector<articap::VerbEntry> verbs = {
       {"session", "the recordings of a speaker on disk: new, import, info",
        articap::SessionCommand},
+      {"calibrate", "boards to print for the calibration of cameras", articap::CalibrateCommand},
       {"info", "what is in a marker file: markers, rate, frames, gaps, units",
        articap::InfoCommand},
       {"convert", "between marker formats", articap::ConvertCommand},

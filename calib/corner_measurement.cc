@@ -143,6 +143,12 @@ Eigen::Matrix2d BoardHomography::PxFromSquares(const Eigen::Vector2d& squares) c
          point.z();
 }
 
+Eigen::Vector2d BoardHomography::DepthGradient(const Eigen::Vector2d& squares) const {
+  const double depth = px_from_squares_.row(2) * squares.homogeneous();
+  const Eigen::Vector2d per_square = px_from_squares_.bottomLeftCorner<1, 2>().transpose() / depth;
+  return PxFromSquares(squares).transpose().inverse() * per_square;
+}
+
 Eigen::Vector2d SquaresOfCorner(const BoardSpec& board, int corner) {
   return board.corner_in_board_mm(corner).head<2>() / board.square_mm;
 }

@@ -23,6 +23,8 @@ class BoardHomography {
   Eigen::Vector2d operator()(const Eigen::Vector2d& squares) const;
   // Derivative of that: px a square.
   Eigen::Matrix2d PxFromSquares(const Eigen::Vector2d& squares) const;
+  // How the board recedes there: gradient of the logarithm of its depth, 1/px.
+  Eigen::Vector2d DepthGradient(const Eigen::Vector2d& squares) const;
 
  private:
   Eigen::Matrix3d px_from_squares_ = Eigen::Matrix3d::Identity();

@@ -25,9 +25,6 @@ GrayPicture EmptyPicture(int width, int height) {
   return {width, height, std::vector<float>(static_cast<std::size_t>(width) * height)};
 }
 
-// Where no rounding of a product is meant to lose a row: 1.0000001 * 480 is 480.
-int RoundedSize(double size) { return static_cast<int>(std::lround(size)); }
-
 }  // namespace
 
 cv::Mat MatOf(GrayPicture& picture) {
@@ -56,6 +53,11 @@ double GrayPicture::At(const Eigen::Vector2d& point_px) const {
   return (1 - fy) * upper + fy * lower;
 }
 
+Eigen::Vector2i PictureSize(const ImageView& image, const PictureFromImage& picture_from_image) {
+  return {static_cast<int>(std::lround(picture_from_image.scale.x() * image.width)),
+          static_cast<int>(std::lround(picture_from_image.scale.y() * image.height))};
+}
+
 GrayPicture GrayPictureOf(const ImageView& image, const PictureFromImage& picture_from_image) {
   cv::Mat gray = MatOf(image);
   if (image.format == PixelFormat::kRgb8) cv::cvtColor(gray, gray, cv::COLOR_RGB2GRAY);
@@ -66,8 +68,8 @@ GrayPicture GrayPictureOf(const ImageView& image, const PictureFromImage& pictur
 
   const Eigen::Vector2d& scale = picture_from_image.scale;
   const Eigen::Vector2d& offset_px = picture_from_image.offset_px;
-  GrayPicture picture =
-      EmptyPicture(RoundedSize(scale.x() * image.width), RoundedSize(scale.y() * image.height));
+  const Eigen::Vector2i size = PictureSize(image, picture_from_image);
+  GrayPicture picture = EmptyPicture(size.x(), size.y());
   cv::Mat picture_mat = MatOf(picture);
   const cv::Mat picture_from_own =
       (cv::Mat_<double>(2, 3) << scale.x(), 0, offset_px.x(), 0, scale.y(), offset_px.y());

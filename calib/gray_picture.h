@@ -27,6 +27,9 @@ struct GrayPicture {
   double At(const Eigen::Vector2d& point_px) const;
 };
 
+// Width and height of the picture that an image is of.
+Eigen::Vector2i PictureSize(const ImageView& image, const PictureFromImage& picture_from_image);
+
 // Of an image in its own pixels, or resampled where these are not the picture's.
 GrayPicture GrayPictureOf(const ImageView& image, const PictureFromImage& picture_from_image);
 
