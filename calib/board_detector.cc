@@ -18,6 +18,8 @@
 namespace articap {
 namespace {
 
+// No board has room in less, and OpenCV's detectors expect some pixels.
+constexpr int kLeastPicture_px = 32;
 // A board that is so small, or seen so partly, tells nothing that others do not tell better.
 constexpr std::size_t kFewestCorners = 6;
 // Corners of a chessboard that may be hidden or unclear.
@@ -151,6 +153,10 @@ Result<void> CheckOptions(const DetectorOptions& options) {
 DetectionResult DetectBoard(const ImageView& image, const PictureFromImage& picture_from_image,
                             const BoardSpec& board, const DetectorOptions& options) {
   const GrayPicture picture = GrayPictureOf(image, picture_from_image);
+  if (std::min(picture.width, picture.height) < kLeastPicture_px)
+    return {{},
+            fmt::format("no board found: the picture has only {} x {} px", picture.width,
+                        picture.height)};
   if (!options.look_in_mirror) {
     const Result<DetectedBoard> direct = DetectUpright(picture, board, options);
     return direct ? DetectionResult{{*direct}, {}} : DetectionResult{{}, direct.error().message};

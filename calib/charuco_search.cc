@@ -55,7 +55,7 @@ cv::Point2d PointOf(const Eigen::Vector2d& point) { return {point.x(), point.y()
 std::vector<PlacedMarker> Consistent(const BoardSpec& board,
                                      const std::vector<PlacedMarker>& markers) {
   constexpr double kMostOff_squares = 0.3;
-  if (markers.size() < 2) return {};
+  if (markers.size() < 2) return markers;
   std::vector<cv::Point2d> squares, points;
   for (const PlacedMarker& placed : markers) {
     const auto corners = CornersInSquares(board, placed.marker);
@@ -89,8 +89,8 @@ double DistanceTo(const Eigen::Vector2d& corner, const BoardMarker& marker) {
   return (Eigen::Vector2d(marker.column - 0.5, marker.row - 0.5) - corner).cwiseAbs().maxCoeff();
 }
 
-// Through the homography of the markers around it, which lenses hardly bend. Nothing where none of
-// the two that touch it is seen.
+// Through the homography of the markers around it, which lenses hardly bend. Nothing where there is
+// none within a square: of the two that touch a corner both may be unreadable while it is clear.
 std::optional<Eigen::Vector2d> Predict(const BoardSpec& board, const Eigen::Vector2d& corner,
                                        std::vector<PlacedMarker> markers) {
   constexpr std::size_t kMarkersAround = 4;
@@ -99,7 +99,7 @@ std::optional<Eigen::Vector2d> Predict(const BoardSpec& board, const Eigen::Vect
            std::pair(DistanceTo(corner, b.marker), b.marker.id);
   };
   std::sort(markers.begin(), markers.end(), is_nearer);
-  if (DistanceTo(corner, markers.front().marker) > 0.6) return std::nullopt;
+  if (DistanceTo(corner, markers.front().marker) > 1.6) return std::nullopt;
   markers.resize(std::min(markers.size(), kMarkersAround));
   std::vector<cv::Point2d> squares, points;
   for (const PlacedMarker& placed : markers) {

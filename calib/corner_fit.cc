@@ -24,8 +24,8 @@ enum Parameter {
   kY,
   kAngle1,  // of the normal of the edge between columns, rad
   kAngle2,  // of the normal of the edge between rows
-  kBlur,
-  kBend1,  // half the edge's curvature, 1/px
+  kBlur,    // of the optics
+  kBend1,   // half the edge's curvature, 1/px
   kBend2,
   kLevel,
   kLevelX,
@@ -42,6 +42,9 @@ constexpr int kPixelsForBends = 80;
 constexpr int kPixelsForGradients = 40;
 constexpr int kFewestPixels = 16;
 
+// Pixels are squares: they blur by 1/12 px2, whatever the optics do.
+double WithPixels(double optical_blur) { return std::sqrt(optical_blur * optical_blur + 1.0 / 12); }
+
 // One edge at a pixel: the step across it, and its derivatives.
 struct EdgeStep {
   double value;
@@ -49,7 +52,8 @@ struct EdgeStep {
   double by_angle, by_bend, by_blur;
 };
 
-EdgeStep StepOf(const Eigen::Vector2d& offset_px, double angle, double bend, double blur) {
+EdgeStep StepOf(const Eigen::Vector2d& offset_px, double angle, double bend, double optical_blur) {
+  const double blur = WithPixels(optical_blur);
   const Eigen::Vector2d normal(std::cos(angle), std::sin(angle)), tangent(-normal.y(), normal.x());
   const double across = normal.dot(offset_px), along = tangent.dot(offset_px);
   const double scaled = (across + bend * along * along) / (std::numbers::sqrt2 * blur);
@@ -58,7 +62,7 @@ EdgeStep StepOf(const Eigen::Vector2d& offset_px, double angle, double bend, dou
           .by_offset = slope * (normal + 2 * bend * along * tangent),
           .by_angle = slope * (along - 2 * bend * along * across),
           .by_bend = slope * along * along,
-          .by_blur = -slope * std::numbers::sqrt2 * scaled};
+          .by_blur = -slope * std::numbers::sqrt2 * scaled * optical_blur / blur};
 }
 
 class CrossingEdges {
@@ -209,7 +213,7 @@ std::optional<CornerFit> FitCorner(const GrayPicture& picture, const Eigen::Vect
     if (!std::isfinite(sigma_px)) return std::nullopt;
     return CornerFit{.point_px = center_px,
                      .sigma_px = sigma_px,
-                     .blur_px = std::abs(parameters[kBlur]),
+                     .blur_px = WithPixels(parameters[kBlur]),
                      .level = parameters[kLevel],
                      .amplitude = parameters[kAmplitude]};
   }

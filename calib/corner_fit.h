@@ -26,7 +26,7 @@ struct CornerWindow {
 struct CornerFit {
   Eigen::Vector2d point_px = Eigen::Vector2d::Zero();
   double sigma_px = 0;  // standard deviation of the point, its larger axis, from the residuals
-  double blur_px = 0;   // SD of the Gaussian that the edges are blurred by
+  double blur_px = 0;   // SD of the Gaussian that the edges are blurred by, pixels included
   double level = 0;     // brightness halfway between the dark and the white squares
   // Half the difference of brightness; positive where the square above and to the left of the
   // corner is the brighter one.
@@ -36,7 +36,7 @@ struct CornerFit {
 // Fits the picture of a corner, two crossing edges under blur:
 //   I(r) = a + b.r + (c + d.r) erf(e1 / (sqrt(2) s)) erf(e2 / (sqrt(2) s)),
 //   e = n.r + k (t.r)^2,
-// with r from the corner; each edge has a normal n, a tangent t and a curvature 2k, which a lens
+// with r from the corner; s includes the 1/12 px2 of the pixels' squares; each edge has a normal n, a tangent t and a curvature 2k, which a lens
 // gives it; b and d are the light's gradient. Least squares over the pixels of the window: under
 // white noise no unbiased estimate is better, and as both sides are symmetric about the corner, the
 // shape of the blur and the response of the sensor hardly matter. Nothing where there is no such

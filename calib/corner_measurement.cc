@@ -70,7 +70,7 @@ MeasuredCorners FitAll(const GrayPicture& picture, const BoardSpec& board,
 
 // A reflection or a finger raises the residuals, and lowers the contrast.
 void DropDoubtful(MeasuredCorners& measured) {
-  constexpr double kLeastContrast = 0.3;
+  constexpr double kLeastContrast = 0.4;
   constexpr double kMostSigma = 6;
   constexpr double kFineSigma_px = 0.1;
   const double amplitude =

@@ -23,7 +23,7 @@ struct RoughCorners {
 Result<RoughCorners> FindChessboard(const GrayPicture& picture, const BoardSpec& board,
                                     bool thorough);
 
-// The corners of a ChArUco board, all those that have a marker of theirs beside them in view.
+// The corners of a ChArUco board in the picture that have a marker nearby; some may be hidden.
 Result<RoughCorners> FindCharuco(const GrayPicture& picture, const BoardSpec& board);
 
 }  // namespace articap
