@@ -17,7 +17,8 @@ const std::vector<articap::VerbEntry>& Verbs() {
   static const std::vector<articap::VerbEntry> verbs = {
       {"session", "the recordings of a speaker on disk: new, import, info",
        articap::SessionCommand},
-      {"calibrate", "cameras and their lenses: convert", articap::CalibrateCommand},
+      {"calibrate", "cameras, their lenses, mirrors: lens, rig, mirror, wand, print, convert",
+       articap::CalibrateCommand},
       {"info", "what is in a marker file: markers, rate, frames, gaps, units; in a calibration",
        articap::InfoCommand},
       {"convert", "between marker formats", articap::ConvertCommand},

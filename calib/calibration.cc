@@ -36,7 +36,7 @@ double Calibration::rms_px() const {
 }
 
 Calibration MakeCalibration(const std::vector<CameraSightings>& inputs,
-                            const AdjustedNetwork& adjusted, const SetAside& set_aside) {
+                            const AdjustedNetwork& adjusted, const LeftOutSightings& set_aside) {
   const Network& network = adjusted.network;
   Calibration calibration;
   calibration.array = network.array;

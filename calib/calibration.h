@@ -76,10 +76,10 @@ struct SightingKey {
 };
 
 // Sightings that a calibration leaves out, and why.
-using SetAside = std::map<SightingKey, std::string>;
+using LeftOutSightings = std::map<SightingKey, std::string>;
 
 // Gathers what an adjusted network says, and what became of the sightings that are not in it.
 Calibration MakeCalibration(const std::vector<CameraSightings>& inputs,
-                            const AdjustedNetwork& adjusted, const SetAside& set_aside);
+                            const AdjustedNetwork& adjusted, const LeftOutSightings& set_aside);
 
 }  // namespace articap

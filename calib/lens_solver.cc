@@ -192,10 +192,11 @@ Result<Camera> StartOf(const BoardSpec& board, const CameraSightings& camera) {
 }
 
 // Solves, and sets aside what does not fit the rest, until everything does.
-SetAside SolveAndScreen(const BoardSpec& board, const CameraSightings& camera, const Camera& start,
-                        const LensOptions& options, AdjustedNetwork& adjusted) {
+LeftOutSightings SolveAndScreen(const BoardSpec& board, const CameraSightings& camera,
+                                const Camera& start, const LensOptions& options,
+                                AdjustedNetwork& adjusted) {
   constexpr int kMostRounds = 3;
-  SetAside set_aside;
+  LeftOutSightings set_aside;
   Camera from = start;
   for (int round = 0;; ++round) {
     std::vector<int> kept;

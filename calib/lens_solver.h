@@ -16,7 +16,7 @@ LensFreedom FreedomOf(LensModel model, const LensOptions& options);
 struct SolvedLens {
   AdjustedNetwork adjusted;  // one camera; one placement a sighting that was kept
   LensModel model = LensModel::kBrown5;
-  SetAside set_aside;
+  LeftOutSightings set_aside;
   std::vector<std::string> warnings;
 };
 

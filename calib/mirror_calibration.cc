@@ -41,7 +41,7 @@ struct MirrorScene {
 };
 
 MirrorScene MakeScene(const BoardSpec& board, const CameraSightings& input, const Camera& camera,
-                      const SetAside& set_aside) {
+                      const LeftOutSightings& set_aside) {
   MirrorScene scene{board, &input, camera, {}, {}};
   for (int i = 0; i < static_cast<int>(input.sightings.size()); ++i) {
     const BoardSighting& sighting = input.sightings[i];
@@ -195,7 +195,7 @@ Rigid3d PlacePicture(const MirrorScene& scene, const FoundMirrors& found, const 
 }
 
 Network BuildNetwork(MirrorScene scene, const FoundMirrors& found, const MirrorOptions& options,
-                     SetAside& set_aside) {
+                     LeftOutSightings& set_aside) {
   Network network;
   network.board = scene.board;
   network.array.cameras = {scene.camera};
@@ -250,7 +250,7 @@ Result<void> RefuseUnusable(const BoardSpec& board, const CameraSightings& camer
 struct StartingLens {
   Camera camera;
   LensFreedom freedom;
-  SetAside set_aside;
+  LeftOutSightings set_aside;
   std::vector<std::string> warnings;
 };
 
@@ -297,7 +297,7 @@ Result<StageResult<Calibration>> CalibrateMirror(const BoardSpec& board,
     return tl::unexpected(usable.error());
   Result<StartingLens> start = StartLens(board, camera, lens_options, options);
   if (!start) return tl::unexpected(start.error());
-  SetAside set_aside = std::move(start->set_aside);
+  LeftOutSightings set_aside = std::move(start->set_aside);
   MirrorScene scene = MakeScene(board, camera, start->camera, set_aside);
   const FoundMirrors found = FindMirrors(scene, options.mirrors);
   if (static_cast<int>(found.planes.size()) < options.mirrors)

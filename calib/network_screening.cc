@@ -35,7 +35,7 @@ double HuberFor_px(const std::vector<std::vector<Eigen::Vector2d>>& residuals_px
 }
 
 AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const ScreenOptions& options,
-                                SetAside& set_aside) {
+                                LeftOutSightings& set_aside) {
   constexpr int kMostRounds = 3;
   adjust.huber_px = options.huber_sigmas == 0 ? 0 : 1;
   AdjustedNetwork adjusted = AdjustMoving(std::move(network), adjust);

@@ -17,6 +17,6 @@ double HuberFor_px(const std::vector<std::vector<Eigen::Vector2d>>& residuals_px
 // Adjusts, sets aside what does not fit the rest, and adjusts again, until everything fits. The
 // sightings left out are added to `set_aside`.
 AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const ScreenOptions& options,
-                                SetAside& set_aside);
+                                LeftOutSightings& set_aside);
 
 }  // namespace articap

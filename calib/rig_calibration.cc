@@ -22,7 +22,7 @@ namespace {
 struct StartingCameras {
   std::vector<Camera> cameras;
   std::vector<LensFreedom> freedoms;
-  SetAside set_aside;
+  LeftOutSightings set_aside;
   std::vector<std::string> warnings;
 };
 
@@ -122,7 +122,7 @@ Result<StageResult<Calibration>> CalibrateRig(const BoardSpec& board,
   AdjustOptions adjust;
   adjust.lenses = start->freedoms;
   adjust.free_time_offsets = options.free_time_offsets;
-  SetAside set_aside = std::move(start->set_aside);
+  LeftOutSightings set_aside = std::move(start->set_aside);
   const AdjustedNetwork adjusted = AdjustAndScreen(
       *std::move(network), adjust, {options.huber_sigmas, options.set_views_aside}, set_aside);
   Calibration calibration = MakeCalibration(cameras, adjusted, set_aside);
