@@ -23,7 +23,6 @@ ExitCode SessionCommand(const std::vector<std::string>& arguments);
 ExitCode SessionNewCommand(const std::vector<std::string>& arguments);
 ExitCode SessionImportCommand(const std::vector<std::string>& arguments);
 ExitCode SessionInfoCommand(const std::vector<std::string>& arguments);
-ExitCode CalibrateCommand(const std::vector<std::string>& arguments);
 ExitCode CalibratePrintCommand(const std::vector<std::string>& arguments);
 ExitCode SynthesizeCommand(const std::vector<std::string>& arguments);
 ExitCode RigCommand(const std::vector<std::string>& arguments);
