@@ -77,6 +77,14 @@ void CopyTurned(const ImageView& from, int turns, std::uint8_t* out) {
     }
 }
 
+// Whether black is 0: grey pictures and JPEG always are so, without saying it.
+bool HasFullRange(const AVFrame& frame) {
+  const AVPixFmtDescriptor& format = *av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
+  const bool is_gray = format.nb_components < 3;
+  return frame.color_range == AVCOL_RANGE_JPEG || is_gray ||
+         std::string_view(format.name).starts_with("yuvj");
+}
+
 // By the standard that the frame names, or, where it names none, the one that its size had: high
 // definition is BT.709, all else BT.601.
 const int* ColorCoefficients(const AVFrame& frame) {
@@ -148,8 +156,7 @@ Result<ImageView> FramePixels::Scale(const AVFrame& frame, PixelFormat format) {
     return Fail(
         fmt::format("pixels of the format {} cannot be converted", av_get_pix_fmt_name(source)));
   const int* const coefficients = ColorCoefficients(frame);
-  const std::string_view name = av_get_pix_fmt_name(source);
-  const int full_range = frame.color_range == AVCOL_RANGE_JPEG || name.starts_with("yuvj") ? 1 : 0;
+  const int full_range = HasFullRange(frame) ? 1 : 0;
   constexpr int kUnit = 1 << 16;  // brightness, contrast and saturation stay
   sws_setColorspaceDetails(scaler_.get(), coefficients, full_range, coefficients, 1, 0, kUnit,
                            kUnit);
