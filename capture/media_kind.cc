@@ -10,7 +10,7 @@ MediaKind MediaKindOf(const std::filesystem::path& path) {
   if (!input) return MediaKind::kNone;
   if ((*input)->is_picture()) return MediaKind::kPicture;
   if ((*input)->video_stream() != nullptr) return MediaKind::kVideo;
-  if ((*input)->audio_stream() != nullptr) return MediaKind::kSound;
+  if ((*input)->audio_stream() != nullptr) return MediaKind::kAudio;
   return MediaKind::kNone;
 }
 

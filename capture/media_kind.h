@@ -10,7 +10,7 @@ enum class MediaKind : std::uint8_t {
   kNone,     // nothing that FFmpeg reads, or no file at all
   kPicture,  // one picture
   kVideo,    // moving pictures, with or without sound
-  kSound,    // sound alone; a picture of the cover does not count
+  kAudio,    // sound alone; a picture of the cover does not count
 };
 
 // What a file holds, by its content; its name says nothing.
