@@ -70,6 +70,28 @@ std::vector<TakeFile> StoredTake::FilesOf(FileRole role) const {
   return files;
 }
 
+std::vector<std::string> StoredTake::cameras() const {
+  std::vector<std::string> cameras;
+  for (const TakeFile& file : info.files)
+    if (file.role == FileRole::kVideo && file.part == 1) cameras.push_back(file.camera);
+  return cameras;
+}
+
+std::vector<TakeFile> StoredTake::VideoOf(std::string_view camera) const {
+  std::vector<TakeFile> files = FilesOf(FileRole::kVideo);
+  std::erase_if(files, [&](const TakeFile& file) { return file.camera != camera; });
+  return files;
+}
+
+double StoredTake::DurationOf_s(const TakeFile& file) const {
+  if (!info.part) return file.duration_s();
+  // As seconds, since a file's offset may be any number.
+  using Seconds = std::chrono::duration<double>;
+  const double begins_s = Seconds(file.offset).count() - Seconds(info.part->start).count();
+  const double part_s = Seconds(info.part->end).count() - Seconds(info.part->start).count();
+  return std::max(0.0, std::min(begins_s + file.duration_s(), part_s) - std::max(begins_s, 0.0));
+}
+
 bool IsTakeFolder(const fs::path& folder) {
   std::error_code error;
   return fs::exists(folder / kTakeFileName, error);
@@ -93,7 +115,8 @@ Result<StoredTake> OpenTake(const fs::path& folder) {
 
 std::optional<std::string> FaultOf(const StoredTake& take, const TakeFile& file) {
   const fs::path path = take.PathOf(file);
-  const std::string where = fmt::format("takes/{}/{}", take.info.id, file.name);
+  const std::string where =
+      fmt::format("takes/{}/{}", take.info.part ? take.info.part->of : take.info.id, file.name);
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return where + " is missing";
   const auto size_bytes = static_cast<std::int64_t>(fs::file_size(path, error));
