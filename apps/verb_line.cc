@@ -66,9 +66,9 @@ CLI::Option* VerbLine::Flag(const std::string& flags, std::string& value, const 
   return app_.add_option(flags, value, help)->type_name(type);
 }
 
-void VerbLine::Arguments(const std::string& name, std::vector<std::string>& values,
-                         const std::string& help) {
-  app_.add_option(name, values, help)
+CLI::Option* VerbLine::Arguments(const std::string& name, std::vector<std::string>& values,
+                                 const std::string& help) {
+  return app_.add_option(name, values, help)
       ->required()
       ->type_name("")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

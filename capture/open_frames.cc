@@ -56,12 +56,10 @@ Result<std::unique_ptr<FrameSource>> OpenTakeFolder(const fs::path& folder,
   const Result<StoredTake> take = OpenTake(folder);
   if (!take) return tl::unexpected(take.error());
   const std::vector<std::string> cameras = take->cameras();
-  if (cameras.size() != 1)
-    return Fail(fmt::format(
-        "{}: the take has {} cameras{}, where one is needed{}", folder.string(), cameras.size(),
-        cameras.empty() ? "" : " (",
-        cameras.empty() ? ""
-                        : fmt::format("{}); name the video's file", fmt::join(cameras, ", "))));
+  if (cameras.empty()) return Fail(fmt::format("{}: the take has no camera", folder.string()));
+  if (cameras.size() > 1)
+    return Fail(fmt::format("{}: the take has {} cameras ({}); name the video's file",
+                            folder.string(), cameras.size(), fmt::join(cameras, ", ")));
   return OpenCamera(*take, cameras[0], options);
 }
 

@@ -56,4 +56,8 @@ void VisitOptions(VideoOptions& options, OptionVisitor& visit);
 Result<std::unique_ptr<FrameSource>> OpenVideo(const std::vector<std::filesystem::path>& parts,
                                                const VideoOptions& options = {});
 
+// How many pictures a file of video holds, of that many a second, by its packets: nothing is
+// decoded.
+Result<std::int64_t> CountPictures(const std::filesystem::path& path, double rate_hz);
+
 }  // namespace articap

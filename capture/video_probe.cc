@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -22,10 +23,11 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
-namespace articap::libav {
-namespace {
-
+namespace articap {
 namespace fs = std::filesystem;
+
+namespace libav {
+namespace {
 
 constexpr double kSeconds = 1.0 / AV_TIME_BASE;
 
@@ -293,6 +295,33 @@ Result<VideoFacts> ProbeVideo(const std::vector<fs::path>& parts, const VideoOpt
   return facts;
 }
 
+}  // namespace libav
+
+Result<std::int64_t> CountPictures(const fs::path& path, double rate_hz) {
+  const auto input = libav::Input::Open({path});
+  if (!input) return tl::unexpected(input.error());
+  const AVStream* const stream = (*input)->video_stream();
+  if (stream == nullptr) return Fail(fmt::format("{}: is no video", path.string()));
+  const libav::Owner<AVPacket> packet(av_packet_alloc());
+  std::int64_t count = 0;
+  std::int64_t first = INT64_MAX, last = INT64_MIN;
+  for (; av_read_frame(&(*input)->format(), packet.get()) == 0; av_packet_unref(packet.get())) {
+    if (packet->stream_index != stream->index || (packet->flags & AV_PKT_FLAG_DISCARD) != 0)
+      continue;
+    ++count;
+    if (packet->pts == AV_NOPTS_VALUE) continue;
+    first = std::min(first, packet->pts);
+    last = std::max(last, packet->pts);
+  }
+  if (first >= last) return count;
+  // Interlaced H.264 may have a packet for each field.
+  const double pictures =
+      static_cast<double>(last - first) * libav::ValueOf(stream->time_base) * rate_hz + 1;
+  return static_cast<double>(count) > 1.5 * pictures ? (count + 1) / 2 : count;
+}
+
+namespace libav {
+
 PictureFromImage PictureFromRows(const VideoFacts& facts, Rows rows) {
   const bool whole = rows == Rows::kAll;
   const int first = rows == Rows::kBottom ? 1 : 0;
@@ -313,4 +342,5 @@ PictureFromImage PictureFromRows(const VideoFacts& facts, Rows rows) {
   return picture;
 }
 
-}  // namespace articap::libav
+}  // namespace libav
+}  // namespace articap

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/file_io.h"
 
 namespace articap {
 namespace {
@@ -126,7 +127,7 @@ Result<void> WavWriter::Finish() {
   stream_.seekp(0);
   stream_ << Header();
   stream_.close();
-  if (!stream_) return CannotWrite();
+  if (!stream_ || !SyncFile(temporary_)) return CannotWrite();
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error) return CannotWrite();

@@ -37,7 +37,7 @@ class WavWriter {
   // Whole frames: a sample of every channel, little-endian.
   Result<void> Write(std::string_view frames);
   Result<void> WriteSilence(std::int64_t num_frames);
-  // Completes the header and moves the file to its place.
+  // Completes the header and moves the file, once it is on the disk, to its place.
   Result<void> Finish();
 
   const WavFormat& format() const { return format_; }

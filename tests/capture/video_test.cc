@@ -77,6 +77,7 @@ TEST_F(VideoTest, PicturesComeInOrderWithTheirTimes) {
     EXPECT_NEAR(source->info().rate_hz, 50, 1e-9) << name;
     EXPECT_FALSE(source->info().interlaced) << name;
     EXPECT_NEAR(static_cast<double>(source->info().frames), 20, 1) << name;
+    EXPECT_EQ(OrThrow(CountPictures(folder_ / name, 50)), 20) << name;
     ExpectFilm(ReadAll(*source), film);
     EXPECT_TRUE(source->info().constant_rate) << name;
     EXPECT_THAT(source->info().notes, IsEmpty()) << name;
