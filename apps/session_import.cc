@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "apps/progress.h"
+#include "apps/take_folder.h"
 #include "capture/audio.h"
 #include "capture/media_kind.h"
 #include "capture/video.h"
@@ -225,37 +226,6 @@ void PlaceInTime(const ImportOptions& options, std::vector<ImportFile>& files) {
   }
 }
 
-// The folder of a take while it is filled; taken away again unless it was kept.
-class TakeFolder {
- public:
-  explicit TakeFolder(fs::path path) : path_(std::move(path)) {}
-  ~TakeFolder() {
-    std::error_code ignored;
-    if (!kept_) fs::remove_all(path_, ignored);
-  }
-  TakeFolder(const TakeFolder&) = delete;
-  TakeFolder& operator=(const TakeFolder&) = delete;
-  const fs::path& path() const { return path_; }
-  void Keep() { kept_ = true; }
-
- private:
-  fs::path path_;
-  bool kept_ = false;
-};
-
-// Makes the folder takes/<id>, or that of the next version; making it is what reserves the id.
-Result<fs::path> MakeTakeFolder(const fs::path& takes, const std::string& id) {
-  std::error_code error;
-  fs::create_directories(takes, error);
-  for (int version = 1; !error; ++version) {
-    const fs::path folder = takes / (version == 1 ? id : fmt::format("{}_v{}", id, version));
-    if (fs::create_directory(folder, error)) return folder;
-    if (error == std::errc::file_exists) error.clear();
-  }
-  return Fail(fmt::format("{}: no folder for a take can be made ({}); check the session's rights",
-                          takes.string(), error.message()));
-}
-
 // Of files that are in the folder already.
 Result<TakeFile> MakeSound(const ImportSound& sound, const fs::path& folder, const TakeInfo& take,
                            std::vector<std::string>& notes) {
@@ -306,9 +276,9 @@ Result<Import> PrepareImport(const std::vector<std::string>& paths, const Import
 }
 
 Result<ImportedTake> StoreTake(const fs::path& session_folder, const Import& import) {
-  const auto made = MakeTakeFolder(session_folder / kTakesFolderName, import.id);
+  Result<TakeFolder> made = MakeTakeFolder(session_folder / kTakesFolderName, import.id);
   if (!made) return tl::unexpected(made.error());
-  TakeFolder folder(*made);
+  TakeFolder& folder = *made;
   ImportedTake imported;
   TakeInfo take;
   take.id = folder.path().filename().string();

@@ -17,8 +17,8 @@ namespace articap {
 namespace {
 
 // One file of options serves all verbs; each verb reads the tables of its own stages.
-constexpr std::array<std::string_view, 9> kStageNames = {
-    "read", "stabilize", "map", "bind", "fit", "synthesize", "noise", "render", "import"};
+constexpr std::array<std::string_view, 10> kStageNames = {
+    "read", "stabilize", "map", "bind", "fit", "synthesize", "noise", "render", "import", "split"};
 
 Result<toml::table> ReadToml(const std::string& path) {
   const Result<std::string> text = ReadFile(path);

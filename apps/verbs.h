@@ -21,6 +21,7 @@ ExitCode SessionCommand(const std::vector<std::string>& arguments);
 ExitCode SessionNewCommand(const std::vector<std::string>& arguments);
 ExitCode SessionImportCommand(const std::vector<std::string>& arguments);
 ExitCode SessionInfoCommand(const std::vector<std::string>& arguments);
+ExitCode SessionSplitCommand(const std::vector<std::string>& arguments);
 ExitCode SynthesizeCommand(const std::vector<std::string>& arguments);
 ExitCode RigCommand(const std::vector<std::string>& arguments);
 ExitCode RigExportCommand(const std::vector<std::string>& arguments);
