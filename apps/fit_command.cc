@@ -19,6 +19,7 @@ namespace {
 struct FitArguments {
   std::string markers, binding, rig_folder, map, reference, labels, tier, window, output, config;
   double labels_shift_s = 0;
+  std::optional<TimeSpan> span;
   PipelineOptions pipeline;
 };
 
@@ -99,6 +100,7 @@ Result<void> ResolveTake(FitArguments& arguments) {
   arguments.markers = input->markers;
   arguments.labels = input->labels;
   arguments.labels_shift_s = input->labels_shift_s;
+  arguments.span = input->span;
   if (arguments.binding.empty() && arguments.map.empty()) arguments.map = input->map;
   if (arguments.rig_folder.empty()) arguments.rig_folder = input->rig_folder;
   return {};
@@ -119,8 +121,8 @@ Result<std::vector<StageReport>> RunFit(const FitArguments& arguments) {
   if (!window) return tl::unexpected(window.error());
   const Result<FaceRig> rig = ChooseRig(arguments.rig_folder);
   if (!rig) return tl::unexpected(rig.error());
-  const Result<Take> take =
-      ReadTake(arguments.markers, arguments.pipeline.read, arguments.pipeline.mirror);
+  const Result<Take> take = ReadTake(arguments.markers, arguments.pipeline.read,
+                                     arguments.pipeline.mirror, arguments.span);
   if (!take) return tl::unexpected(take.error());
   Result<FitOutcome> outcome = FitByReference(*take, *rig, arguments);
   if (!outcome) return tl::unexpected(outcome.error());

@@ -13,6 +13,10 @@
 #include <utility>
 
 #include "apps/progress.h"
+#include "apps/take_folder.h"
+#include "capture/audio.h"
+#include "capture/media_kind.h"
+#include "capture/video.h"
 #include "core/file_io.h"
 #include "core/io/text.h"
 #include "core/text_grid.h"
@@ -37,7 +41,15 @@ FileRole RoleOf(const fs::path& path) {
   if (LooksLikeWav(start) || ending == ".wav") return FileRole::kAudio;
   if (start.find("ooTextFile") != std::string::npos || ending == ".textgrid")
     return FileRole::kLabels;
-  return FileRole::kMarkers;
+  if (MarkerFormatOf(path)) return FileRole::kMarkers;
+  switch (MediaKindOf(path)) {
+    case MediaKind::kVideo:
+      return FileRole::kVideo;
+    case MediaKind::kAudio:
+      return FileRole::kOriginal;
+    default:
+      return FileRole::kMarkers;
+  }
 }
 
 void Append(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
@@ -73,41 +85,103 @@ Result<void> LookIntoLabels(const ImportFile& file, std::vector<std::string>& wa
   return {};
 }
 
-Result<ImportFile> LookInto(const fs::path& path, const ImportOptions& options,
-                            std::vector<std::string>& warnings) {
+Result<ImportFile> FileAt(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error))
-    return Fail(
-        fmt::format("{}: is no file; name a file of markers, a WAV or a TextGrid", path.string()));
+    return Fail(fmt::format(
+        "{}: is no file; name a file of markers, a video, a sound or a TextGrid", path.string()));
   const std::string name = path.filename().string();
   if (!IsUtf8(name))
     return Fail(fmt::format("{}: its name is not UTF-8; rename it", path.string()));
   ImportFile file;
   file.path = path;
-  file.info.role = RoleOf(path);
   file.info.name = SafeNameOf(name);
   file.info.original_name = name;
-  Result<void> looked;
-  if (file.info.role == FileRole::kMarkers)
-    looked = LookIntoMarkers(file, options.read, warnings);
-  else if (file.info.role == FileRole::kAudio)
-    looked = LookIntoAudio(file, warnings);
-  else
-    looked = LookIntoLabels(file, warnings);
-  if (!looked) return tl::unexpected(looked.error());
-  if (file.info.role != FileRole::kMarkers) file.info.offset = options.audio_offset;
   return file;
 }
 
-// "sound.wav", "sound_2.wav", ...
-void MakeNamesUnique(std::vector<ImportFile>& files) {
-  std::set<std::string> taken = {kTakeFileName};
-  for (ImportFile& file : files) {
-    const fs::path first = file.info.name;
-    for (int number = 2; !taken.insert(ToLower(file.info.name)).second; ++number)
-      file.info.name =
-          fmt::format("{}_{}{}", first.stem().string(), number, first.extension().string());
+// All of a camera's files, and its sound.
+Result<void> AddCamera(const CameraFiles& camera, Import& import) {
+  std::vector<ImportFile> files;
+  for (const fs::path& path : camera.parts) {
+    Result<ImportFile> file = FileAt(path);
+    if (!file) return tl::unexpected(file.error());
+    files.push_back(*std::move(file));
   }
+  const auto source =
+      WithProgress("reading " + camera.parts[0].string(), [&] { return OpenVideo(camera.parts); });
+  if (!source) return tl::unexpected(source.error());
+  const FrameSourceInfo& video = (*source)->info();
+  const int fields = video.interlaced ? 2 : 1;
+  ImportSound sound = {{}, SafeNameOf(camera.parts[0].stem().string()) + ".wav"};
+  for (ImportFile& file : files) {
+    const auto pictures = CountPictures(file.path, video.rate_hz / fields);
+    if (!pictures) return tl::unexpected(pictures.error());
+    file.info.role = FileRole::kVideo;
+    file.info.rate_hz = video.rate_hz;
+    file.info.frames = fields * *pictures;
+    file.info.camera = camera.camera;
+    file.info.part = static_cast<int>(sound.of.size()) + 1;
+    file.info.width = video.width;
+    file.info.height = video.height;
+    sound.of.push_back(import.files.size());
+    import.files.push_back(std::move(file));
+  }
+  for (const std::string& note : video.notes)
+    import.notes.push_back(fmt::format("{}: {}", camera.parts[0].filename().string(), note));
+  if (HasAudio(camera.parts[0])) import.sounds.push_back(std::move(sound));
+  return {};
+}
+
+Result<void> AddFile(const fs::path& path, const ImportOptions& options, Import& import) {
+  Result<ImportFile> file = FileAt(path);
+  if (!file) return tl::unexpected(file.error());
+  file->info.role = RoleOf(path);
+  Result<void> looked;
+  switch (file->info.role) {
+    case FileRole::kVideo:
+      return AddCamera({SafeNameOf(path.stem().string()), {path}}, import);
+    case FileRole::kMarkers:
+      looked = LookIntoMarkers(*file, options.read, import.warnings);
+      break;
+    case FileRole::kAudio:
+      looked = LookIntoAudio(*file, import.warnings);
+      break;
+    case FileRole::kLabels:
+      looked = LookIntoLabels(*file, import.warnings);
+      break;
+    case FileRole::kOriginal:
+      import.sounds.push_back({{import.files.size()}, SafeNameOf(path.stem().string()) + ".wav"});
+      break;
+  }
+  if (!looked) return tl::unexpected(looked.error());
+  import.files.push_back(*std::move(file));
+  return {};
+}
+
+// "sound.wav", "sound_2.wav", ...
+void MakeNamesUnique(Import& import) {
+  std::set<std::string> taken = {kTakeFileName};
+  const auto make_unique = [&](std::string& name) {
+    const fs::path first = name;
+    for (int number = 2; !taken.insert(ToLower(name)).second; ++number)
+      name = fmt::format("{}_{}{}", first.stem().string(), number, first.extension().string());
+  };
+  for (ImportFile& file : import.files) make_unique(file.info.name);
+  for (ImportSound& sound : import.sounds) make_unique(sound.name);
+}
+
+// Two videos of one name are two cameras all the same.
+Result<void> CheckCameras(const std::vector<ImportFile>& files) {
+  std::set<std::string> cameras;
+  for (const ImportFile& file : files)
+    if (file.info.role == FileRole::kVideo && file.info.part == 1 &&
+        !cameras.insert(file.info.camera).second)
+      return Fail(
+          fmt::format("two videos are of the camera {}; name each with --camera NAME=FILE, "
+                      "or the parts of one with --camera NAME=FILE,FILE",
+                      file.info.camera));
+  return {};
 }
 
 const ImportFile* FirstOf(const std::vector<ImportFile>& files, FileRole role) {
@@ -118,7 +192,8 @@ const ImportFile* FirstOf(const std::vector<ImportFile>& files, FileRole role) {
 }
 
 std::string IdOf(const std::vector<ImportFile>& files) {
-  for (const FileRole role : {FileRole::kMarkers, FileRole::kAudio, FileRole::kLabels})
+  for (const FileRole role : {FileRole::kMarkers, FileRole::kAudio, FileRole::kOriginal,
+                              FileRole::kVideo, FileRole::kLabels})
     if (const ImportFile* file = FirstOf(files, role))
       return SafeNameOf(file->path.stem().string());
   return {};
@@ -130,41 +205,50 @@ Result<void> CheckTogether(const std::vector<ImportFile>& files, const ImportOpt
   };
   if (std::count_if(files.begin(), files.end(), is_markers) > 1)
     return Fail("more than one file of markers; a take has one, import them one after the other");
-  if (options.audio_offset.count() != 0 && !FirstOf(files, FileRole::kAudio))
+  const bool has_audio = FirstOf(files, FileRole::kAudio) || FirstOf(files, FileRole::kOriginal);
+  if (options.audio_offset.count() != 0 && !has_audio)
     return Fail(
         "--audio-offset-s says where the audio begins, and there is none; add the WAV file");
-  return {};
+  if (options.video_offset.count() != 0 && !FirstOf(files, FileRole::kVideo))
+    return Fail("--video-offset-s says where the videos begin, and there is none; add the video");
+  return CheckCameras(files);
 }
 
-// The folder of a take while it is filled; taken away again unless it was kept.
-class TakeFolder {
- public:
-  explicit TakeFolder(fs::path path) : path_(std::move(path)) {}
-  ~TakeFolder() {
-    std::error_code ignored;
-    if (!kept_) fs::remove_all(path_, ignored);
+void PlaceInTime(const ImportOptions& options, std::vector<ImportFile>& files) {
+  const bool has_audio = FirstOf(files, FileRole::kAudio) || FirstOf(files, FileRole::kOriginal);
+  for (ImportFile& file : files) {
+    const FileRole role = file.info.role;
+    if (role == FileRole::kAudio || role == FileRole::kOriginal ||
+        (role == FileRole::kLabels && has_audio))
+      file.info.offset = options.audio_offset;
+    if (role == FileRole::kVideo || (role == FileRole::kLabels && !has_audio))
+      file.info.offset = options.video_offset;
   }
-  TakeFolder(const TakeFolder&) = delete;
-  TakeFolder& operator=(const TakeFolder&) = delete;
-  const fs::path& path() const { return path_; }
-  void Keep() { kept_ = true; }
+}
 
- private:
-  fs::path path_;
-  bool kept_ = false;
-};
-
-// Makes the folder takes/<id>, or that of the next version; making it is what reserves the id.
-Result<fs::path> MakeTakeFolder(const fs::path& takes, const std::string& id) {
-  std::error_code error;
-  fs::create_directories(takes, error);
-  for (int version = 1; !error; ++version) {
-    const fs::path folder = takes / (version == 1 ? id : fmt::format("{}_v{}", id, version));
-    if (fs::create_directory(folder, error)) return folder;
-    if (error == std::errc::file_exists) error.clear();
-  }
-  return Fail(fmt::format("{}: no folder for a take can be made ({}); check the session's rights",
-                          takes.string(), error.message()));
+// Of files that are in the folder already.
+Result<TakeFile> MakeSound(const ImportSound& sound, const fs::path& folder, const TakeInfo& take,
+                           std::vector<std::string>& notes) {
+  std::vector<fs::path> parts;
+  for (const std::size_t file : sound.of) parts.push_back(folder / take.files[file].name);
+  const TakeFile& source = take.files[sound.of[0]];
+  const auto audio = WithProgress("making the sound of " + source.original_name,
+                                  [&] { return ExtractAudio(parts, folder / sound.name); });
+  if (!audio) return tl::unexpected(audio.error());
+  const Result<FileDigest> digest = DigestOf(folder / sound.name);
+  if (!digest) return tl::unexpected(digest.error());
+  for (const std::string& note : audio->notes)
+    notes.push_back(fmt::format("{}: {}", sound.name, note));
+  TakeFile file;
+  file.role = FileRole::kAudio;
+  file.name = file.original_name = sound.name;
+  file.digest = *digest;
+  file.offset = source.offset + audio->offset;
+  file.rate_hz = static_cast<double>(audio->format.rate_hz);
+  file.channels = audio->format.channels;
+  file.frames = audio->frames;
+  file.made_from = source.name;
+  return file;
 }
 
 }  // namespace
@@ -173,14 +257,15 @@ Result<Import> PrepareImport(const std::vector<std::string>& paths, const Import
   // Room for "_v1000", so that the next version's name is safe too.
   constexpr std::size_t kLongestId = 90;
   Import import;
-  for (const std::string& path : paths) {
-    Result<ImportFile> file = LookInto(path, options, import.warnings);
-    if (!file) return tl::unexpected(file.error());
-    import.files.push_back(*std::move(file));
-  }
+  for (const std::string& path : paths)
+    if (const auto added = AddFile(path, options, import); !added)
+      return tl::unexpected(added.error());
+  for (const CameraFiles& camera : options.cameras)
+    if (const auto added = AddCamera(camera, import); !added) return tl::unexpected(added.error());
   if (const auto together = CheckTogether(import.files, options); !together)
     return tl::unexpected(together.error());
-  MakeNamesUnique(import.files);
+  PlaceInTime(options, import.files);
+  MakeNamesUnique(import);
   import.id = options.id.empty() ? IdOf(import.files).substr(0, kLongestId) : options.id;
   if (!IsSafeName(import.id) || import.id.size() > kLongestId)
     return Fail(
@@ -190,10 +275,11 @@ Result<Import> PrepareImport(const std::vector<std::string>& paths, const Import
   return import;
 }
 
-Result<StoredTake> StoreTake(const fs::path& session_folder, const Import& import) {
-  const auto made = MakeTakeFolder(session_folder / kTakesFolderName, import.id);
+Result<ImportedTake> StoreTake(const fs::path& session_folder, const Import& import) {
+  Result<TakeFolder> made = MakeTakeFolder(session_folder / kTakesFolderName, import.id);
   if (!made) return tl::unexpected(made.error());
-  TakeFolder folder(*made);
+  TakeFolder& folder = *made;
+  ImportedTake imported;
   TakeInfo take;
   take.id = folder.path().filename().string();
   for (const ImportFile& file : import.files) {
@@ -204,10 +290,18 @@ Result<StoredTake> StoreTake(const fs::path& session_folder, const Import& impor
     take.files.push_back(file.info);
     take.files.back().digest = *digest;
   }
+  for (const ImportSound& sound : import.sounds) {
+    Result<TakeFile> file = MakeSound(sound, folder.path(), take, imported.notes);
+    if (!file) return tl::unexpected(file.error());
+    take.files.push_back(*std::move(file));
+  }
   const auto written = WriteFile(folder.path() / kTakeFileName, WriteTakeInfo(take));
   if (!written) return tl::unexpected(written.error());
   folder.Keep();
-  return OpenTake(folder.path());
+  Result<StoredTake> stored = OpenTake(folder.path());
+  if (!stored) return tl::unexpected(stored.error());
+  imported.take = *std::move(stored);
+  return imported;
 }
 
 }  // namespace articap

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "apps/progress.h"
 #include "apps/verbs.h"
@@ -16,12 +18,26 @@ namespace {
 double DurationOf_s(const StoredTake& take, FileRole role) {
   double longest_s = NAN;
   for (const TakeFile& file : take.FilesOf(role))
-    longest_s = std::fmax(longest_s, file.duration_s());
+    longest_s = std::fmax(longest_s, take.DurationOf_s(file));
   return longest_s;
 }
 
+// Of the longest video, all its parts together; NaN where there is none.
+double VideoDurationOf_s(const StoredTake& take) {
+  double longest_s = NAN;
+  for (const std::string& camera : take.cameras()) {
+    TakeFile whole = take.VideoOf(camera)[0];
+    whole.frames = 0;
+    for (const TakeFile& part : take.VideoOf(camera)) whole.frames += part.frames;
+    longest_s = std::fmax(longest_s, take.DurationOf_s(whole));
+  }
+  return longest_s;
+}
+
+// A part has no bytes of its own.
 double SizeOf_bytes(const StoredTake& take) {
   double bytes = 0;
+  if (take.info.part) return bytes;
   for (const TakeFile& file : take.info.files) bytes += static_cast<double>(file.digest.size_bytes);
   return bytes;
 }
@@ -32,34 +48,72 @@ std::string Count(std::size_t number, const std::string& what) {
 }
 
 ReportTable TakeTable(const Recording& recording) {
-  ReportTable table = {"take", {"markers_s", "audio_s", "labels", "size_bytes"}, {}};
+  ReportTable table = {
+      "take", {"markers_s", "audio_s", "video_s", "cameras", "labels", "size_bytes"}, {}};
   for (const StoredTake& take : recording.takes())
     table.rows.push_back(
         {take.info.id,
          {DurationOf_s(take, FileRole::kMarkers), DurationOf_s(take, FileRole::kAudio),
+          VideoDurationOf_s(take), static_cast<double>(take.cameras().size()),
           static_cast<double>(take.FilesOf(FileRole::kLabels).size()), SizeOf_bytes(take)}});
   return table;
 }
 
+// Every video, its parts together.
+ReportTable VideoTable(const Recording& recording) {
+  ReportTable table = {
+      "video", {"width_px", "height_px", "rate_hz", "frames", "parts", "offset_s"}, {}};
+  for (const StoredTake& take : recording.takes())
+    for (const std::string& camera : take.cameras()) {
+      if (take.info.part) continue;
+      const std::vector<TakeFile> parts = take.VideoOf(camera);
+      double frames = 0;
+      for (const TakeFile& part : parts) frames += static_cast<double>(part.frames);
+      const std::chrono::duration<double> offset = parts[0].offset;
+      table.rows.push_back({take.info.id + "/" + camera,
+                            {double(parts[0].width), double(parts[0].height), parts[0].rate_hz,
+                             frames, static_cast<double>(parts.size()), offset.count()}});
+    }
+  return table;
+}
+
+// The whole of which a take is a part, where the part names the same files; null otherwise.
+const StoredTake* WholeOf(const StoredTake& take, const Recording& recording) {
+  const StoredTake* const whole = take.info.part ? recording.Find(take.info.part->of) : nullptr;
+  if (whole == nullptr || whole->info.part) return nullptr;
+  const auto same = [](const TakeFile& first, const TakeFile& second) {
+    return first.name == second.name && first.digest == second.digest;
+  };
+  return std::equal(take.info.files.begin(), take.info.files.end(), whole->info.files.begin(),
+                    whole->info.files.end(), same)
+             ? whole
+             : nullptr;
+}
+
 std::vector<std::string> FaultsOf(const Recording& recording) {
   std::vector<std::string> faults;
+  // The files of a part are those of the whole, which are read once.
   for (const StoredTake& take : recording.takes())
-    std::ranges::move(VerifyTake(take), std::back_inserter(faults));
+    if (!WholeOf(take, recording)) std::ranges::move(VerifyTake(take), std::back_inserter(faults));
   return faults;
 }
 
 std::size_t CountFiles(const Recording& recording) {
   std::size_t count = 0;
-  for (const StoredTake& take : recording.takes()) count += take.info.files.size();
+  for (const StoredTake& take : recording.takes())
+    if (!take.info.part) count += take.info.files.size();
   return count;
 }
 
-// Of each take the longest file.
+// Of each whole take the longest file.
 double TotalDuration_s(const Recording& recording) {
   double total_s = 0;
   for (const StoredTake& take : recording.takes()) {
+    if (take.info.part) continue;
     double longest_s = 0;
-    for (const TakeFile& file : take.info.files) longest_s = std::max(longest_s, file.duration_s());
+    for (const double duration_s : {DurationOf_s(take, FileRole::kMarkers),
+                                    DurationOf_s(take, FileRole::kAudio), VideoDurationOf_s(take)})
+      longest_s = std::fmax(longest_s, duration_s);
     total_s += longest_s;
   }
   return total_s;
@@ -87,6 +141,8 @@ StageReport DescribeSession(const Recording& recording, const std::vector<std::s
                     {"files", static_cast<double>(CountFiles(recording))},
                     {"duration_s", TotalDuration_s(recording)}};
   report.tables = {TakeTable(recording)};
+  if (ReportTable videos = VideoTable(recording); !videos.rows.empty())
+    report.tables.push_back(std::move(videos));
   report.warnings = faults;
   for (const auto& folder : recording.unfinished())
     report.warnings.push_back(

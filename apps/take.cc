@@ -12,12 +12,18 @@
 
 namespace articap {
 
-Result<Take> ReadTake(const std::string& path, const MarkerReadOptions& options, bool mirror) {
+Result<Take> ReadTake(const std::string& path, const MarkerReadOptions& options, bool mirror,
+                      const std::optional<TimeSpan>& span) {
   Result<MarkerRecording> recording =
       WithProgress("reading " + path, [&] { return ReadMarkers(path, options); });
   if (!recording) return tl::unexpected(recording.error());
   if (const auto implausible = ImplausibleSize(*recording))
     return Fail(fmt::format("{}: {}", path, *implausible));
+  if (span) *recording = CropToTimes(*recording, span->start, span->end);
+  if (recording->tracks.num_frames() == 0)
+    return Fail(fmt::format("{}: no frame of the markers lies in the part from {:.3f} to {:.3f} s",
+                            path, span ? SecondsOf(span->start) : 0.0,
+                            span ? SecondsOf(span->end) : 0.0));
   if (mirror) recording->tracks = Mirror(recording->tracks);
   Take take{path, std::move(*recording), {}};
   const StageTracks& tracks = take.recording.tracks;

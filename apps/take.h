@@ -10,6 +10,7 @@
 #include "core/marker_set.h"
 #include "core/report.h"
 #include "core/result.h"
+#include "core/time.h"
 #include "rig/face_rig.h"
 #include "tracking/stabilize.h"
 
@@ -22,9 +23,16 @@ struct Take {
   StageReport report;  // what reading had to say
 };
 
+// From a time to before another.
+struct TimeSpan {
+  SessionTime start;
+  SessionTime end;
+};
+
 // Reads a take and refuses what cannot be a face, with the unit that its size looks like. `mirror`:
-// the recording is mirrored back, see Mirror().
-Result<Take> ReadTake(const std::string& path, const MarkerReadOptions& options, bool mirror);
+// the recording is mirrored back, see Mirror(). `span`: only these frames of it.
+Result<Take> ReadTake(const std::string& path, const MarkerReadOptions& options, bool mirror,
+                      const std::optional<TimeSpan>& span = {});
 
 // A marker map by name or path.
 Result<MarkerSet> ReadMap(const std::string& name_or_path);

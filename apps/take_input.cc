@@ -15,9 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Shown as the user named the folder.
-std::string NameIn(const std::string& folder, const TakeFile& file) {
-  return (fs::path(folder) / file.name).string();
+// Shown as the user named the folder; the files of a part lie in that of the whole.
+std::string NameIn(const std::string& folder, const StoredTake& take, const TakeFile& file) {
+  if (!take.info.part) return (fs::path(folder) / file.name).string();
+  return (fs::path(folder) / ".." / take.info.part->of / file.name).lexically_normal().string();
 }
 
 Result<void> AddLabels(const std::string& folder, const StoredTake& take,
@@ -27,7 +28,7 @@ Result<void> AddLabels(const std::string& folder, const StoredTake& take,
   if (labels.size() > 1)
     return Fail(fmt::format("{}: the take has {} files of labels; choose one with --labels", folder,
                             labels.size()));
-  input.labels = NameIn(folder, labels[0]);
+  input.labels = NameIn(folder, take, labels[0]);
   // In seconds before they are subtracted: the file's numbers may be anything.
   using Seconds = std::chrono::duration<double>;
   input.labels_shift_s = (Seconds(labels[0].offset) - Seconds(files[0].offset)).count();
@@ -58,7 +59,10 @@ Result<TakeInput> FindTakeInput(const std::string& markers, const std::string& l
   if (files.size() != 1)
     return Fail(fmt::format("{}: the take has {} files of markers, where one is needed", markers,
                             files.size()));
-  TakeInput input = {.markers = NameIn(markers, files[0]), .labels = labels};
+  TakeInput input = {.markers = NameIn(markers, *take, files[0]), .labels = labels};
+  if (const auto& part = take->info.part)
+    input.span = TimeSpan{SessionTime(part->start - files[0].offset),
+                          SessionTime(part->end - files[0].offset)};
   if (labels.empty())
     if (const auto added = AddLabels(markers, *take, files, input); !added)
       return tl::unexpected(added.error());

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "apps/take.h"
 #include "core/result.h"
 
 namespace articap {
@@ -13,6 +15,8 @@ struct TakeInput {
   std::string labels;  // empty where there are none
   // What is added to the labels' times to have the markers': a take's audio may begin elsewhere.
   double labels_shift_s = 0;
+  // Of a part of a take: from when to when it goes, on the markers' own clock.
+  std::optional<TimeSpan> span;
   std::string map;         // what the session says; empty: nothing
   std::string rig_folder;  // the same
 };

@@ -17,8 +17,8 @@ namespace articap {
 namespace {
 
 // One file of options serves all verbs; each verb reads the tables of its own stages.
-constexpr std::array<std::string_view, 9> kStageNames = {
-    "read", "stabilize", "map", "bind", "fit", "synthesize", "noise", "render", "import"};
+constexpr std::array<std::string_view, 10> kStageNames = {
+    "read", "stabilize", "map", "bind", "fit", "synthesize", "noise", "render", "import", "split"};
 
 Result<toml::table> ReadToml(const std::string& path) {
   const Result<std::string> text = ReadFile(path);
@@ -66,9 +66,9 @@ CLI::Option* VerbLine::Flag(const std::string& flags, std::string& value, const 
   return app_.add_option(flags, value, help)->type_name(type);
 }
 
-void VerbLine::Arguments(const std::string& name, std::vector<std::string>& values,
-                         const std::string& help) {
-  app_.add_option(name, values, help)
+CLI::Option* VerbLine::Arguments(const std::string& name, std::vector<std::string>& values,
+                                 const std::string& help) {
+  return app_.add_option(name, values, help)
       ->required()
       ->type_name("")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

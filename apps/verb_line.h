@@ -39,8 +39,8 @@ class VerbLine {
   // A required argument without a flag; the referred value must live until Parse().
   void Argument(const std::string& name, std::string& value, const std::string& help);
   // One or more of them, to the end of the line.
-  void Arguments(const std::string& name, std::vector<std::string>& values,
-                 const std::string& help);
+  CLI::Option* Arguments(const std::string& name, std::vector<std::string>& values,
+                         const std::string& help);
   // An option of the verb itself, e.g. "--binding" or "-o,--output".
   CLI::Option* Flag(const std::string& flags, std::string& value, const std::string& type,
                     const std::string& help);

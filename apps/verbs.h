@@ -24,6 +24,7 @@ ExitCode SessionNewCommand(const std::vector<std::string>& arguments);
 ExitCode SessionImportCommand(const std::vector<std::string>& arguments);
 ExitCode SessionInfoCommand(const std::vector<std::string>& arguments);
 ExitCode CalibratePrintCommand(const std::vector<std::string>& arguments);
+ExitCode SessionSplitCommand(const std::vector<std::string>& arguments);
 ExitCode SynthesizeCommand(const std::vector<std::string>& arguments);
 ExitCode RigCommand(const std::vector<std::string>& arguments);
 ExitCode RigExportCommand(const std::vector<std::string>& arguments);

@@ -46,15 +46,6 @@ Result<FileDigest> ReadPieces(const std::filesystem::path& path,
   return digest;
 }
 
-// Waits until a file's bytes are on the disk.
-bool Sync(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool synced = ::fsync(file) == 0;
-  ::close(file);
-  return synced;
-}
-
 }  // namespace
 
 Result<std::ifstream> OpenFile(const std::filesystem::path& path) {
@@ -115,6 +106,14 @@ Result<void> WriteFile(const std::filesystem::path& path, std::string_view bytes
   return {};
 }
 
+bool SyncFile(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool synced = ::fsync(file) == 0;
+  ::close(file);
+  return synced;
+}
+
 std::string HashOf(std::string_view bytes) {
   return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
@@ -141,7 +140,7 @@ Result<FileDigest> CopyFile(const std::filesystem::path& from, const std::filesy
     return bool(stream.write(piece.data(), static_cast<std::streamsize>(piece.size())));
   });
   stream.close();
-  if (!stream || !Sync(temporary)) return fail(std::strerror(errno));
+  if (!stream || !SyncFile(temporary)) return fail(std::strerror(errno));
   if (digest) std::filesystem::rename(temporary, to, error);
   if (error) return fail(error.message());
   if (!digest) std::filesystem::remove(temporary, error);

@@ -19,6 +19,9 @@ Result<std::string> ReadFile(const std::filesystem::path& path);
 // file. Folders on the way are made.
 Result<void> WriteFile(const std::filesystem::path& path, std::string_view bytes);
 
+// Waits until a file's bytes are on the disk; false where they cannot be brought there.
+bool SyncFile(const std::filesystem::path& path);
+
 // XXH3, 64 bits, as 16 hex digits.
 std::string HashOf(std::string_view bytes);
 

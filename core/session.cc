@@ -8,6 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "core/natural_order.h"
+
 namespace articap {
 namespace {
 
@@ -15,41 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestName = 100;
 
-bool IsDigit(char c) { return '0' <= c && c <= '9'; }
-
 bool IsLetterOrDigit(char c) {
-  return IsDigit(c) || ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
-}
-
-// The length of the number that a text begins with, and that number without leading zeros.
-std::pair<std::size_t, std::string_view> LeadingNumber(std::string_view text) {
-  const auto length =
-      static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), IsDigit) - text.begin());
-  std::string_view number = text.substr(0, length);
-  number.remove_prefix(std::min(number.find_first_not_of('0'), number.size()));
-  return {length, number};
-}
-
-// take2 before take10.
-bool ComesBefore(const std::string& first_id, const std::string& second_id) {
-  std::string_view first = first_id, second = second_id;
-  while (!first.empty() && !second.empty()) {
-    const auto [first_length, first_number] = LeadingNumber(first);
-    const auto [second_length, second_number] = LeadingNumber(second);
-    if (first_length == 0 || second_length == 0) {
-      if (first[0] != second[0]) return first[0] < second[0];
-      first.remove_prefix(1);
-      second.remove_prefix(1);
-      continue;
-    }
-    if (first_number != second_number)
-      return std::pair(first_number.size(), first_number) <
-             std::pair(second_number.size(), second_number);
-    first.remove_prefix(first_length);
-    second.remove_prefix(second_length);
-  }
-  // Only leading zeros tell them apart, or one goes on.
-  return first.size() != second.size() ? first.size() < second.size() : first_id < second_id;
+  return ('0' <= c && c <= '9') || ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
 }
 
 Result<fs::path> ExistingFolder(const fs::path& folder, const std::string& what_it_lacks) {
@@ -101,6 +70,28 @@ std::vector<TakeFile> StoredTake::FilesOf(FileRole role) const {
   return files;
 }
 
+std::vector<std::string> StoredTake::cameras() const {
+  std::vector<std::string> cameras;
+  for (const TakeFile& file : info.files)
+    if (file.role == FileRole::kVideo && file.part == 1) cameras.push_back(file.camera);
+  return cameras;
+}
+
+std::vector<TakeFile> StoredTake::VideoOf(std::string_view camera) const {
+  std::vector<TakeFile> files = FilesOf(FileRole::kVideo);
+  std::erase_if(files, [&](const TakeFile& file) { return file.camera != camera; });
+  return files;
+}
+
+double StoredTake::DurationOf_s(const TakeFile& file) const {
+  if (!info.part) return file.duration_s();
+  // As seconds, since a file's offset may be any number.
+  using Seconds = std::chrono::duration<double>;
+  const double begins_s = Seconds(file.offset).count() - Seconds(info.part->start).count();
+  const double part_s = Seconds(info.part->end).count() - Seconds(info.part->start).count();
+  return std::max(0.0, std::min(begins_s + file.duration_s(), part_s) - std::max(begins_s, 0.0));
+}
+
 bool IsTakeFolder(const fs::path& folder) {
   std::error_code error;
   return fs::exists(folder / kTakeFileName, error);
@@ -124,7 +115,8 @@ Result<StoredTake> OpenTake(const fs::path& folder) {
 
 std::optional<std::string> FaultOf(const StoredTake& take, const TakeFile& file) {
   const fs::path path = take.PathOf(file);
-  const std::string where = fmt::format("takes/{}/{}", take.info.id, file.name);
+  const std::string where =
+      fmt::format("takes/{}/{}", take.info.part ? take.info.part->of : take.info.id, file.name);
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return where + " is missing";
   const auto size_bytes = static_cast<std::int64_t>(fs::file_size(path, error));
@@ -186,7 +178,7 @@ Result<Recording> OpenSession(const fs::path& folder) {
   }
   std::sort(recording.takes_.begin(), recording.takes_.end(),
             [](const StoredTake& first, const StoredTake& second) {
-              return ComesBefore(first.info.id, second.info.id);
+              return NaturallyBefore(first.info.id, second.info.id);
             });
   return recording;
 }

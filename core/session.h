@@ -31,8 +31,14 @@ struct SessionInfo {
   std::string notes;  // free text
 };
 
-enum class FileRole : std::uint8_t { kMarkers, kAudio, kLabels };
-const char* NameOf(FileRole role);  // "markers", "audio", "labels"
+enum class FileRole : std::uint8_t {
+  kMarkers,
+  kAudio,  // WAV
+  kLabels,
+  kVideo,
+  kOriginal,  // kept as it came, of which another file of the take was made: sound that is no WAV
+};
+const char* NameOf(FileRole role);  // "markers", "audio", "labels", "video", "original"
 
 // A raw file of a take.
 struct TakeFile {
@@ -42,15 +48,29 @@ struct TakeFile {
   std::string original_name;  // before it was imported; any text
   // Where the file's own time 0 lies on the session clock.
   std::chrono::nanoseconds offset{0};
-  double rate_hz = 0;       // of the frames; labels have none
+  double rate_hz = 0;       // of the frames; labels and originals have none
   int markers = 0;          // of markers
   int channels = 0;         // of audio
-  std::int64_t frames = 0;  // of markers and audio
+  std::int64_t frames = 0;  // of markers, audio and video, whose fields count as frames
+  std::string made_from;    // of audio: the file of the take whose sound it is; empty: recorded so
+  std::string camera;       // of video: a safe name
+  int part = 1;             // of video: a camera's files are one video, in this order from 1
+  int width = 0;            // of video: of the picture, upright, with square pixels, px
+  int height = 0;
 
   double duration_s() const { return rate_hz > 0 ? static_cast<double>(frames) / rate_hz : 0; }
 };
 
 enum class TakeState : std::uint8_t { kComplete };
+
+// The take that a part is cut from, and from when to when it goes on their common session clock.
+struct TakePart {
+  std::string of;  // the whole take's id
+  std::chrono::nanoseconds start{0};
+  std::chrono::nanoseconds end{0};  // later than the start; what happens then is no more of it
+
+  bool operator==(const TakePart&) const = default;
+};
 
 // take.toml: what is in the folder of a take.
 struct TakeInfo {
@@ -59,6 +79,9 @@ struct TakeInfo {
   // The instant, ns since 1970-01-01T00:00:00 UTC, at which the take's session clock is 0; nothing
   // where it is not known, as of imported files.
   std::optional<std::int64_t> clock_start_unix_ns;
+  // Of a take that is part of another one. It has no files of its own: those that it names lie in
+  // the folder of the whole, and are the same.
+  std::optional<TakePart> part;
   std::vector<TakeFile> files;
 };
 
@@ -81,8 +104,18 @@ struct StoredTake {
   TakeInfo info;
   std::filesystem::path folder;  // absolute
 
-  std::filesystem::path PathOf(const TakeFile& file) const { return folder / file.name; }
+  // Where the files are: in this folder, or in that of the take of which this one is a part.
+  std::filesystem::path files_folder() const {
+    return info.part ? folder.parent_path() / info.part->of : folder;
+  }
+  std::filesystem::path PathOf(const TakeFile& file) const { return files_folder() / file.name; }
   std::vector<TakeFile> FilesOf(FileRole role) const;
+  // The names of the cameras, in the order of their files.
+  std::vector<std::string> cameras() const;
+  // A camera's video, in the order of its parts.
+  std::vector<TakeFile> VideoOf(std::string_view camera) const;
+  // Seconds of the file that belong to the take.
+  double DurationOf_s(const TakeFile& file) const;
 };
 
 // Whether a folder holds a take.toml, and what it says. Refused where the id is not the folder's

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -16,8 +17,8 @@ namespace {
 
 constexpr int kFormatVersion = 1;
 constexpr const char* kComplete = "complete";
-constexpr std::array<FileRole, 3> kRoles = {FileRole::kMarkers, FileRole::kAudio,
-                                            FileRole::kLabels};
+constexpr std::array<FileRole, 5> kRoles = {FileRole::kMarkers, FileRole::kAudio, FileRole::kLabels,
+                                            FileRole::kVideo, FileRole::kOriginal};
 
 constexpr char kSessionHead[] =
     R"(# An articap session: what its takes share. recordings/README.md defines the format.
@@ -68,7 +69,9 @@ FileRole ReadRole(const TomlReader& table) {
   for (const FileRole role : kRoles)
     if (name == NameOf(role)) return role;
   table.Fault("role",
-              fmt::format("is \"{}\"; the roles are \"markers\", \"audio\" and \"labels\"", name));
+              fmt::format("is \"{}\"; the roles are \"markers\", \"audio\", \"labels\", \"video\" "
+                          "and \"original\"",
+                          name));
   return FileRole::kLabels;
 }
 
@@ -93,7 +96,7 @@ int ReadCount(const TomlReader& table, std::string_view key) {
   return count;
 }
 
-// What is said of the frames of markers and audio.
+// What is said of the frames of markers, audio and video.
 void ReadFrames(const TomlReader& table, TakeFile& file) {
   file.rate_hz = table.Number("rate_hz");
   if (!(file.rate_hz > 0)) table.Fault("rate_hz", "is not above 0");
@@ -107,10 +110,18 @@ void AllowKeysOf(FileRole role, const TomlReader& table) {
                               "rate_hz", "markers", "frames"});
     case FileRole::kAudio:
       return table.AllowOnly({"role", "name", "xxh3", "size_bytes", "original_name", "offset_ns",
-                              "rate_hz", "channels", "frames"});
+                              "rate_hz", "channels", "frames", "made_from"});
+    case FileRole::kVideo:
+      return table.AllowOnly({"role", "name", "xxh3", "size_bytes", "original_name", "offset_ns",
+                              "rate_hz", "camera", "part", "width", "height", "frames"});
     case FileRole::kLabels:
+    case FileRole::kOriginal:
       return table.AllowOnly({"role", "name", "xxh3", "size_bytes", "original_name", "offset_ns"});
   }
+}
+
+bool HasFrames(FileRole role) {
+  return role == FileRole::kMarkers || role == FileRole::kAudio || role == FileRole::kVideo;
 }
 
 TakeFile ReadFileTable(const TomlReader& table) {
@@ -122,17 +133,47 @@ TakeFile ReadFileTable(const TomlReader& table) {
   file.digest.size_bytes = ReadAtLeast(table, "size_bytes", 0);
   file.original_name = table.Text("original_name");
   file.offset = std::chrono::nanoseconds(table.Integer64("offset_ns"));
-  if (file.role != FileRole::kLabels) ReadFrames(table, file);
+  if (HasFrames(file.role)) ReadFrames(table, file);
   if (file.role == FileRole::kMarkers) file.markers = ReadCount(table, "markers");
-  if (file.role == FileRole::kAudio) file.channels = ReadCount(table, "channels");
+  if (file.role == FileRole::kAudio) {
+    file.channels = ReadCount(table, "channels");
+    if (table.Has("made_from")) file.made_from = ReadSafeName(table, "made_from");
+  }
+  if (file.role == FileRole::kVideo) {
+    file.camera = ReadSafeName(table, "camera");
+    file.part = ReadCount(table, "part");
+    file.width = ReadCount(table, "width");
+    file.height = ReadCount(table, "height");
+  }
   return file;
+}
+
+// That a camera's parts are there one after the other, and what a sound was made from too.
+void CheckFile(const TomlReader& table, const TakeFile& file,
+               const std::vector<TakeFile>& files_before) {
+  int parts_before = 0;
+  bool has_source = file.made_from.empty();
+  for (const TakeFile& before : files_before) {
+    parts_before += before.role == FileRole::kVideo && before.camera == file.camera;
+    has_source =
+        has_source || (before.name == file.made_from &&
+                       (before.role == FileRole::kVideo || before.role == FileRole::kOriginal));
+  }
+  if (file.role == FileRole::kVideo && file.part != parts_before + 1)
+    table.Fault("part", fmt::format("is {}, where part {} of the camera {} should be", file.part,
+                                    parts_before + 1, file.camera));
+  if (!has_source)
+    table.Fault("made_from",
+                fmt::format("is \"{}\", which is no video or original before it", file.made_from));
 }
 
 std::vector<TakeFile> ReadFiles(const TomlReader& document) {
   std::vector<TakeFile> files;
   std::set<std::string> names = {kTakeFileName};
   for (const TomlReader& table : document.Tables("file")) {
-    files.push_back(ReadFileTable(table));
+    TakeFile file = ReadFileTable(table);
+    CheckFile(table, file, files);
+    files.push_back(std::move(file));
     if (!names.insert(files.back().name).second)
       table.Fault("name", fmt::format("is \"{}\", as another file is called", files.back().name));
   }
@@ -149,11 +190,33 @@ std::string FileTable(const TakeFile& file) {
       "offset_ns = {}\n",
       NameOf(file.role), QuotedToml(file.name), QuotedToml(file.digest.xxh3),
       file.digest.size_bytes, QuotedToml(file.original_name), file.offset.count());
-  if (file.role == FileRole::kLabels) return text;
+  if (!HasFrames(file.role)) return text;
   text += fmt::format("rate_hz = {}\n", TomlFloat(file.rate_hz));
-  text += file.role == FileRole::kMarkers ? fmt::format("markers = {}\n", file.markers)
-                                          : fmt::format("channels = {}\n", file.channels);
-  return text + fmt::format("frames = {}\n", file.frames);
+  if (file.role == FileRole::kMarkers) text += fmt::format("markers = {}\n", file.markers);
+  if (file.role == FileRole::kAudio) text += fmt::format("channels = {}\n", file.channels);
+  if (file.role == FileRole::kVideo)
+    text += fmt::format("camera = {}\npart = {}\nwidth = {}\nheight = {}\n",
+                        QuotedToml(file.camera), file.part, file.width, file.height);
+  return text + fmt::format("frames = {}\n", file.frames) +
+         OptionalLine("made_from", file.made_from);
+}
+
+// Nothing where the take is whole.
+std::optional<TakePart> ReadPart(const TomlReader& document, const std::string& take_id) {
+  if (!document.Has("part_of")) {
+    for (const char* key : {"start_ns", "end_ns"})
+      if (document.Has(key)) document.Fault(key, "is said of a take without 'part_of'");
+    return std::nullopt;
+  }
+  TakePart part;
+  part.of = ReadSafeName(document, "part_of");
+  part.start = std::chrono::nanoseconds(document.Integer64("start_ns"));
+  part.end = std::chrono::nanoseconds(document.Integer64("end_ns"));
+  if (part.of == take_id) document.Fault("part_of", "is the take itself");
+  if (part.end <= part.start)
+    document.Fault("end_ns", fmt::format("is {}, which is not later than 'start_ns', {}",
+                                         part.end.count(), part.start.count()));
+  return part;
 }
 
 }  // namespace
@@ -165,9 +228,13 @@ const char* NameOf(FileRole role) {
     case FileRole::kAudio:
       return "audio";
     case FileRole::kLabels:
+      return "labels";
+    case FileRole::kVideo:
+      return "video";
+    case FileRole::kOriginal:
       break;
   }
-  return "labels";
+  return "original";
 }
 
 std::string WriteSessionInfo(const SessionInfo& session) {
@@ -199,6 +266,9 @@ std::string WriteTakeInfo(const TakeInfo& take) {
                                              kFormatVersion, QuotedToml(take.id), kComplete);
   if (take.clock_start_unix_ns)
     text += fmt::format("clock_start_unix_ns = {}\n", *take.clock_start_unix_ns);
+  if (take.part)
+    text += fmt::format("part_of = {}\nstart_ns = {}\nend_ns = {}\n", QuotedToml(take.part->of),
+                        take.part->start.count(), take.part->end.count());
   for (const TakeFile& file : take.files) text += FileTable(file);
   return text;
 }
@@ -209,7 +279,8 @@ Result<TakeInfo> ParseTakeInfo(const std::string& toml_text, const std::string& 
   std::optional<Error> fault;
   const TomlReader reader(*document, source_name, fault);
   CheckVersion(reader);
-  reader.AllowOnly({"format", "id", "state", "clock_start_unix_ns", "file"});
+  reader.AllowOnly(
+      {"format", "id", "state", "clock_start_unix_ns", "part_of", "start_ns", "end_ns", "file"});
   TakeInfo take;
   take.id = ReadSafeName(reader, "id");
   if (const std::string state = reader.Text("state"); state != kComplete)
@@ -217,6 +288,7 @@ Result<TakeInfo> ParseTakeInfo(const std::string& toml_text, const std::string& 
                  fmt::format("is \"{}\"; the only state there is, is \"complete\"", state));
   if (reader.Has("clock_start_unix_ns"))
     take.clock_start_unix_ns = reader.Integer64("clock_start_unix_ns");
+  take.part = ReadPart(reader, take.id);
   take.files = ReadFiles(reader);
   if (fault) return tl::unexpected(*fault);
   return take;

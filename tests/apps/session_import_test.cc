@@ -51,8 +51,8 @@ TEST_F(SessionImportTest, AFailureHalfWayLeavesNoTake) {
 TEST_F(SessionImportTest, AnUnfinishedFolderIsNotTakenOver) {
   const fs::path begun = session_ / kTakesFolderName / "take" / "take.c3d.1.part";
   EXPECT_TRUE(WriteFile(begun, "half"));
-  EXPECT_EQ(OrThrow(StoreTake(session_, Prepare({"take.c3d"}))).info.id, "take_v2");
-  EXPECT_EQ(OrThrow(StoreTake(session_, Prepare({"take.c3d"}))).info.id, "take_v3");
+  EXPECT_EQ(OrThrow(StoreTake(session_, Prepare({"take.c3d"}))).take.info.id, "take_v2");
+  EXPECT_EQ(OrThrow(StoreTake(session_, Prepare({"take.c3d"}))).take.info.id, "take_v3");
   EXPECT_EQ(ReadFile(begun).value(), "half");
 }
 
@@ -60,7 +60,8 @@ TEST_F(SessionImportTest, LabelsMoveWithTheAudio) {
   ImportOptions options;
   options.audio_offset = std::chrono::milliseconds(-250);
   const StoredTake take =
-      OrThrow(StoreTake(session_, Prepare({"labels.TextGrid", "take.c3d", "sound.wav"}, options)));
+      OrThrow(StoreTake(session_, Prepare({"labels.TextGrid", "take.c3d", "sound.wav"}, options)))
+          .take;
   EXPECT_THAT(VerifyTake(take), IsEmpty());
   EXPECT_EQ(take.FilesOf(FileRole::kMarkers)[0].offset.count(), 0);
   EXPECT_EQ(take.FilesOf(FileRole::kAudio)[0].offset, options.audio_offset);
@@ -74,7 +75,7 @@ TEST_F(SessionImportTest, LabelsMoveWithTheAudio) {
 }
 
 TEST_F(SessionImportTest, ATakeBringsTheMapAndTheRigOfItsSession) {
-  const StoredTake take = OrThrow(StoreTake(session_, Prepare({"take.c3d"})));
+  const StoredTake take = OrThrow(StoreTake(session_, Prepare({"take.c3d"}))).take;
   EXPECT_EQ(OrThrow(FindTakeInput(take.folder.string(), "")).map, "");
   EXPECT_TRUE(WriteFile(session_ / "own.toml", "name = \"own\""));
   EXPECT_TRUE(WriteFile(session_ / kSessionFileName,

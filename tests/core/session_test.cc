@@ -49,9 +49,23 @@ TakeInfo SmallTake() {
   audio.frames = 456960;
   TakeFile labels = FileOf(FileRole::kLabels, "take.TextGrid", 77);
   labels.offset = std::chrono::nanoseconds(std::numeric_limits<std::int64_t>::max());
+  TakeFile video = FileOf(FileRole::kVideo, "00001.MTS", 12);
+  video.offset = std::chrono::nanoseconds(-20'000'000);
+  video.rate_hz = 50;
+  video.camera = "left";
+  video.width = 1920;
+  video.height = 1080;
+  video.frames = 475;
+  TakeFile next = video;
+  next.name = "00002.MTS";
+  next.part = 2;
+  TakeFile sound = audio;
+  sound.name = "00001.wav";
+  sound.made_from = "00001.MTS";
+  const TakeFile original = FileOf(FileRole::kOriginal, "take.mp3", 5);
   TakeInfo take;
   take.id = "take_v2";
-  take.files = {markers, audio, labels};
+  take.files = {markers, audio, labels, video, next, sound, original};
   return take;
 }
 
@@ -75,12 +89,17 @@ TEST(SessionTomlTest, TakesSurviveByteForByte) {
     const TakeInfo read = OrThrow(ParseTakeInfo(text, "take.toml"));
     EXPECT_EQ(WriteTakeInfo(read), text);
     EXPECT_EQ(read.clock_start_unix_ns, start);
-    ASSERT_THAT(read.files, SizeIs(3));
+    ASSERT_THAT(read.files, SizeIs(7));
     EXPECT_EQ(read.files[0].rate_hz, take.files[0].rate_hz);
     EXPECT_EQ(read.files[0].digest.size_bytes, 5'000'000'000);
     EXPECT_EQ(read.files[1].offset, take.files[1].offset);
     EXPECT_EQ(read.files[2].role, FileRole::kLabels);
     EXPECT_EQ(read.files[2].offset, take.files[2].offset);
+    EXPECT_EQ(read.files[4].camera, "left");
+    EXPECT_EQ(read.files[4].part, 2);
+    EXPECT_EQ(read.files[4].height, 1080);
+    EXPECT_EQ(read.files[5].made_from, "00001.MTS");
+    EXPECT_EQ(read.files[6].role, FileRole::kOriginal);
   }
 }
 
@@ -93,6 +112,25 @@ std::string FaultWith(std::string text, const std::string& what, const std::stri
   text.replace(place, what.size(), instead);
   const auto read = parse(text, "x.toml");
   return read ? "" : read.error().message;
+}
+
+TEST(SessionTomlTest, PartsOfTakesSurviveByteForByte) {
+  TakeInfo take = SmallTake();
+  take.part = {.of = "take",
+               .start = std::chrono::nanoseconds(-5),
+               .end = std::chrono::nanoseconds(std::numeric_limits<std::int64_t>::max())};
+  const std::string text = WriteTakeInfo(take);
+  const TakeInfo read = OrThrow(ParseTakeInfo(text, "take.toml"));
+  EXPECT_EQ(read.part, take.part);
+  EXPECT_EQ(WriteTakeInfo(read), text);
+  const auto fault_with = [&](const std::string& what, const std::string& instead) {
+    return FaultWith(text, what, instead, ParseTakeInfo);
+  };
+  EXPECT_THAT(fault_with("part_of = \"take\"", "part_of = \"take_v2\""), HasSubstr("itself"));
+  EXPECT_THAT(fault_with("part_of = \"take\"", "part_of = \"../x\""), HasSubstr("'part_of'"));
+  EXPECT_THAT(fault_with("part_of = \"take\"", ""), HasSubstr("'start_ns' is said"));
+  EXPECT_THAT(fault_with("start_ns = -5", ""), HasSubstr("'start_ns' is missing"));
+  EXPECT_THAT(fault_with("end_ns = 9223372036854775807", "end_ns = -5"), HasSubstr("not later"));
 }
 
 TEST(SessionTomlTest, FaultsOfSessionsAreNamed) {
@@ -121,7 +159,13 @@ TEST(SessionTomlTest, FaultsOfTakesAreNamed) {
         << name;
   EXPECT_THAT(fault_with("take_v2", ".."), HasSubstr("x.toml: 'id' is"));
   EXPECT_THAT(fault_with("complete", "begun"), HasSubstr("'state' is \"begun\""));
-  EXPECT_THAT(fault_with("\"audio\"", "\"video\""), HasSubstr("file 2: 'role' is \"video\""));
+  EXPECT_THAT(fault_with("\"audio\"", "\"film\""), HasSubstr("file 2: 'role' is \"film\""));
+  EXPECT_THAT(fault_with("part = 2", "part = 3"), HasSubstr("file 5: 'part' is 3"));
+  EXPECT_THAT(fault_with("part = 1", "part = 0"), HasSubstr("file 4: 'part' is 0"));
+  EXPECT_THAT(fault_with("camera = \"left\"", "camera = \"a b\""), HasSubstr("'camera' is"));
+  EXPECT_THAT(fault_with("width = 1920", "width = 0"), HasSubstr("'width' is 0"));
+  EXPECT_THAT(fault_with("made_from = \"00001.MTS\"", "made_from = \"take.wav\""),
+              HasSubstr("file 6: 'made_from' is \"take.wav\""));
   EXPECT_THAT(fault_with("size_bytes = 0", "size_bytes = -1"), HasSubstr("'size_bytes' is -1"));
   EXPECT_THAT(fault_with("offset_ns = 0", "offset_ns = 0.5"), HasSubstr("'offset_ns'"));
   EXPECT_THAT(fault_with("rate_hz = 48000.0", "rate_hz = nan"), HasSubstr("file 2: 'rate_hz'"));
@@ -179,9 +223,37 @@ TEST_F(RecordingTest, TakesComeInOrderWithTheirFiles) {
   ASSERT_NE(take, nullptr);
   EXPECT_EQ(recording.Find("take1"), nullptr);
   const auto audio = take->FilesOf(FileRole::kAudio);
-  ASSERT_THAT(audio, SizeIs(1));
+  ASSERT_THAT(audio, SizeIs(2));  // the second is a video's sound
   EXPECT_TRUE(take->PathOf(audio[0]).is_absolute());
   EXPECT_EQ(ReadFile(take->PathOf(audio[0])).value(), "bytes of take.wav");
+}
+
+TEST_F(RecordingTest, ACamerasPartsAreOneVideo) {
+  AddTake("t");
+  const StoredTake take = OrThrow(OpenTake(TakeFolder("t")));
+  EXPECT_THAT(take.cameras(), ElementsAre("left"));
+  const auto video = take.VideoOf("left");
+  ASSERT_THAT(video, SizeIs(2));
+  EXPECT_EQ(video[1].name, "00002.MTS");
+  EXPECT_THAT(take.VideoOf("right"), IsEmpty());
+}
+
+TEST_F(RecordingTest, APartHasTheFilesOfTheWhole) {
+  AddTake("whole");
+  TakeInfo part = OrThrow(OpenTake(TakeFolder("whole"))).info;
+  part.id = "whole_01";
+  part.part = {.of = "whole",
+               .start = std::chrono::milliseconds(-500),
+               .end = std::chrono::milliseconds(9600)};
+  EXPECT_TRUE(WriteFile(TakeFolder("whole_01") / "take.toml", WriteTakeInfo(part)));
+  const StoredTake take = OrThrow(OpenTake(TakeFolder("whole_01")));
+  EXPECT_THAT(VerifyTake(take), IsEmpty());
+  EXPECT_EQ(ReadFile(take.PathOf(take.info.files[0])).value(), "bytes of take.c3d");
+  // The markers last 571 frames from 0 on; the audio of 9.52 s begins at -1.5 s.
+  EXPECT_NEAR(take.DurationOf_s(take.info.files[0]), 571 / 59.94005994005994, 1e-9);
+  EXPECT_NEAR(take.DurationOf_s(take.info.files[1]), 9.52 - 1, 1e-6);
+  fs::remove(TakeFolder("whole") / "take.c3d");
+  EXPECT_THAT(VerifyTake(take), ElementsAre(HasSubstr("takes/whole/take.c3d is missing")));
 }
 
 TEST_F(RecordingTest, EveryChangeOfAFileIsNamed) {

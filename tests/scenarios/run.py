@@ -7,10 +7,12 @@ A scenario is a file of
 
     description = "what happens to whom"
     needs = "animface/jaw.trc"          # optional: real data; skipped (exit code 77) without them
+    needs_program = "ffmpeg"            # optional, the same for a program
 
     [[input]]                           # files in the scenario's own empty folder
     name = "take.csv"
     text = "..."                        # or hex = "...", or
+    ffmpeg = "-f lavfi -i testsrc"      # what ffmpeg makes by these arguments, or
     from = "other.csv"                  # an earlier input, a file of the source tree, or of the
                                         # real data; changed by the operations of edits.py
     edits = [{scale = 100}]
@@ -36,6 +38,8 @@ import json
 import os
 import pathlib
 import re
+import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -70,6 +74,10 @@ def make_input(spec, folder):
         data = spec["text"].encode()
     elif "hex" in spec:
         data = bytes.fromhex(spec["hex"])
+    elif "ffmpeg" in spec:
+        subprocess.run(["ffmpeg", "-nostdin", "-loglevel", "error", *shlex.split(spec["ffmpeg"]),
+                        path.name], cwd=path.parent, check=True)
+        data = path.read_bytes()
     else:
         data = find_source(spec["from"], folder).read_bytes()
     path.write_bytes(edits.apply(data, spec.get("edits", [])))
@@ -147,6 +155,9 @@ def main():
     scenario = tomllib.loads(pathlib.Path(sys.argv[2]).read_text())
     if "needs" in scenario and not (test_data() / scenario["needs"]).exists():
         print(f"{test_data() / scenario['needs']} is not there; set ARTICAP_TEST_DATA to run this")
+        return SKIPPED
+    if "needs_program" in scenario and not shutil.which(scenario["needs_program"]):
+        print(f"the program {scenario['needs_program']} is not there; install it to run this")
         return SKIPPED
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
