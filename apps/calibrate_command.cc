@@ -6,6 +6,11 @@ namespace articap {
 ExitCode CalibrateCommand(const std::vector<std::string>& arguments) {
   static const std::vector<VerbEntry> verbs = {
       {"print", "a board to print, as a PDF in its true size", CalibratePrintCommand},
+      {"lens", "one camera's lens, from a board", CalibrateLensCommand},
+      {"rig", "where several cameras stand, from a board that they see together",
+       CalibrateRigCommand},
+      {"mirror", "a camera and the mirrors in its picture, from a board", CalibrateMirrorCommand},
+      {"wand", "where several cameras stand, from a waved wand", CalibrateWandCommand},
       {"convert", "between files of calibrated cameras", CalibrateConvertCommand},
   };
   return RunVerb("articap calibrate", "Cameras: where they stand and what their lenses do", verbs,

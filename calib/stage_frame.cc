@@ -109,6 +109,12 @@ void MoveStage(const std::vector<CameraParameter>& parameters, const Eigen::Matr
   }
 }
 
+void MoveStage(const Rigid3d& new_from_old, Calibration& calibration) {
+  MoveStage(calibration.parameters, calibration.covariance, new_from_old, calibration.array);
+  for (Placement& placement : calibration.placements)
+    placement.stage_from_board = new_from_old * placement.stage_from_board;
+}
+
 Result<Rigid3d> StageOfCamera(const CameraArray& array, const std::string& name) {
   std::vector<std::string> names;
   for (const Camera& camera : array.cameras) {

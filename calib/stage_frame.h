@@ -16,6 +16,9 @@ namespace articap {
 void MoveStage(const std::vector<CameraParameter>& parameters, const Eigen::MatrixXd& covariance,
                const Rigid3d& new_from_old, CameraArray& array);
 
+// The same for a whole calibration, its placements included.
+void MoveStage(const Rigid3d& new_from_old, Calibration& calibration);
+
 // The frame of a camera of that name: x to the right of its picture, y down, z ahead.
 Result<Rigid3d> StageOfCamera(const CameraArray& array, const std::string& name);
 

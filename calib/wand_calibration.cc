@@ -122,6 +122,8 @@ WandCalibration Summarize(const AdjustedWand& adjusted) {
   WandCalibration result;
   result.array = adjusted.network.array;
   result.sigma_px = adjusted.sigma_px;
+  result.parameters = adjusted.parameters;
+  result.covariance = adjusted.covariance;
   double squares = 0;
   for (const auto& ends : adjusted.residuals_px)
     squares += ends[0].squaredNorm() + ends[1].squaredNorm();

@@ -52,6 +52,9 @@ struct WandCalibration {
   // 100 x standard deviation / mean of these (easyWand: Theriault et al., J. Exp. Biol. 217, 2014).
   double wand_score = 0;
   double mean_length_mm = 0;
+  // Of the free parameters, in the gauge of the first camera.
+  std::vector<CameraParameter> parameters;
+  Eigen::MatrixXd covariance;
 };
 
 // Cameras whose lenses are known, from a wand with two markers. The stage frame is the first

@@ -150,8 +150,9 @@ AdjustedWand AdjustWand(const WandNetwork& network, const AdjustOptions& options
   adjusted.residuals_px = ResidualsOf(adjusted.network);
   const int free = static_cast<int>(problem.parameters().size() + 6 * network.instants.size());
   adjusted.sigma_px = std::sqrt(2 * summary.final_cost / std::max(1, summary.num_residuals - free));
-  FillSigmas(problem.parameters(), adjusted.sigma_px * adjusted.sigma_px * problem.Covariance(),
-             adjusted.network.array);
+  adjusted.parameters = problem.parameters();
+  adjusted.covariance = adjusted.sigma_px * adjusted.sigma_px * problem.Covariance();
+  FillSigmas(adjusted.parameters, adjusted.covariance, adjusted.network.array);
   return adjusted;
 }
 

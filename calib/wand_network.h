@@ -38,6 +38,8 @@ struct AdjustedWand {
   WandNetwork network;
   bool converged = false;
   double sigma_px = 0;
+  std::vector<CameraParameter> parameters;
+  Eigen::MatrixXd covariance;
   // seen - expected, px; the two ends of each sighting.
   std::vector<std::array<Eigen::Vector2d, 2>> residuals_px;
 };

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "apps/calibrate_input.h"
+#include "apps/calibrate_outputs.h"
+#include "apps/progress.h"
+#include "apps/verbs.h"
+#include "calib/mirror_calibration.h"
+
+namespace articap {
+namespace {
+
+struct MirrorArguments {
+  BoardInput input;
+  LensOptions lens;
+  MirrorOptions mirror;
+  CalibrationOutput output{"", "first"};
+};
+
+Result<StageReport> RunMirror(const MirrorArguments& arguments, const BoardSpec& board) {
+  BoardInput input = arguments.input;
+  input.detect.look_in_mirror = true;
+  Result<SeenCamera> seen = SeeOneCamera(board, input);
+  if (!seen) return tl::unexpected(seen.error());
+  auto mirror = WithProgress("calibrating the mirror", [&] {
+    return CalibrateMirror(board, seen->sightings, arguments.lens, arguments.mirror);
+  });
+  if (!mirror) return Fail(WithReasons(mirror.error().message, seen->set_aside));
+  AddWarnings(seen->set_aside, mirror->report);
+  if (const auto written =
+          WriteCalibrationOutputs(mirror->output, mirror->report, arguments.output, input.paths);
+      !written)
+    return tl::unexpected(written.error());
+  return mirror->report;
+}
+
+}  // namespace
+
+ExitCode CalibrateMirrorCommand(const std::vector<std::string>& arguments) {
+  VerbLine line(
+      "articap calibrate mirror",
+      "A camera's lens and the mirrors in its picture, from pictures or a video in which\n"
+      "the board shows both directly and in the mirror.",
+      "articap calibrate mirror --board chessboard:9x6:12 board.mp4 -o calibration.toml");
+  MirrorArguments values;
+  line.Arguments("PICTURES|VIDEO", values.input.paths,
+                 "picture files, a folder of them, or a video");
+  AddBoardInput(line, values.input);
+  line.Flag("-o,--output", values.output.path, "FILE", "calibration to write, TOML")->required();
+  line.Flag("--stage", values.output.stage, "FRAME",
+            "stage frame: first (the camera's), or board:PICTURE in which the board lay still");
+  line.Stage("lens", values.lens, "lens");
+  line.Stage("mirror", values.mirror);
+  if (const auto exit = line.Parse(arguments)) return *exit;
+  const Result<BoardSpec> board = ParseBoardSpec(values.input.board);
+  if (!board) return FailWith(ExitCode::kWrongUsage, board.error().message);
+  const Result<StageReport> report = RunMirror(values, *board);
+  return report ? line.Finish({*report}) : FailWith(report.error());
+}
+
+}  // namespace articap
