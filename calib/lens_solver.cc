@@ -220,6 +220,14 @@ bool ShowsWholePicture(const Camera& camera) {
   return true;
 }
 
+// Whether the leading coefficient of the rational model's denominator stands out from its own
+// noise.
+bool IsDenominatorKnown(const Camera& camera) {
+  constexpr double kSigmas = 3;
+  return std::abs(camera.lens.distortion[Lens::kK4]) >
+         kSigmas * camera.sigmas.distortion[Lens::kK4];
+}
+
 // The rational model needs views that reach into the corners of a wide lens; where they do not, its
 // numerator and denominator cancel and wander off together.
 void TryRational(SolvedLens& solved, const LensOptions& options) {
@@ -231,8 +239,12 @@ void TryRational(SolvedLens& solved, const LensOptions& options) {
   std::string against;
   if (!rational.converged || !std::isfinite(rational.sigma_px))
     against = "it does not converge";
-  else if (!IsSupported(rational, LensModel::kRational))
-    against = "its coefficients k4, k5, k6 are no more than noise";
+  else if (!IsSupported(rational, LensModel::kRational) ||
+           !IsDenominatorKnown(rational.network.array.cameras[0]))
+    against = fmt::format(
+        "k4 would be {:.2f} +- {:.2f}, as its numerator and denominator make up for one another",
+        rational.network.array.cameras[0].lens.distortion[Lens::kK4],
+        rational.network.array.cameras[0].sigmas.distortion[Lens::kK4]);
   else if (!ShowsWholePicture(rational.network.array.cameras[0]))
     against = "it folds the picture over within its edges";
   else if (!(after_px < 0.99 * before_px))
