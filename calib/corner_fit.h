@@ -36,11 +36,12 @@ struct CornerFit {
 // Fits the picture of a corner, two crossing edges under blur:
 //   I(r) = a + b.r + (c + d.r) erf(e1 / (sqrt(2) s)) erf(e2 / (sqrt(2) s)),
 //   e = n.r + k (t.r)^2,
-// with r from the corner; s includes the 1/12 px2 of the pixels' squares; each edge has a normal n, a tangent t and a curvature 2k, which a lens
-// gives it; b and d are the light's gradient. Least squares over the pixels of the window: under
-// white noise no unbiased estimate is better, and as both sides are symmetric about the corner, the
-// shape of the blur and the response of the sensor hardly matter. Nothing where there is no such
-// corner within a quarter of a square of where it is expected.
+// with r from the corner; s includes the 1/12 px2 of the pixels' squares; each edge has a normal n,
+// a tangent t and a curvature 2k, which a lens gives it; b and d are the light's gradient. Least
+// squares over the pixels of the window: under white noise no unbiased estimate is better, and as
+// both sides are symmetric about the corner, the shape of the blur and the response of the sensor
+// hardly matter. Nothing where there is no such corner within a quarter of a square of where it is
+// expected.
 std::optional<CornerFit> FitCorner(const GrayPicture& picture, const Eigen::Vector2d& expected_px,
                                    const CornerWindow& window);
 
