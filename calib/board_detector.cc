@@ -34,7 +34,7 @@ Result<void> CheckQuality(const BoardQuality& quality, const DetectorOptions& op
     return Fail(fmt::format("too blurred (edges {:.1f} px wide, at most {:.1f} are of use)",
                             quality.edge_px, most_edge_px));
   if (quality.saturated > options.max_saturated)
-    return Fail(fmt::format("overexposed ({:.0f} % of the board's white saturated)",
+    return Fail(fmt::format("overexposed ({:.0f} % of the board's white saturated); expose less",
                             100 * quality.saturated));
   return {};
 }

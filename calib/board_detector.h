@@ -25,7 +25,8 @@ struct DetectorOptions {
   // Pictures whose edges take more than this from 10 % to 90 % are refused.
   double max_edge_px = 10;
   // Pictures with more than this part of the board's white squares at the top of the scale are
-  // refused.
+  // refused. White that is a little too bright does not shift corners; twice as bright doubles
+  // their errors, and by how much it is too bright cannot be seen.
   double max_saturated = 0.5;
 };
 void VisitOptions(DetectorOptions& options, OptionVisitor& visit);

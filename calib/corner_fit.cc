@@ -211,6 +211,10 @@ std::optional<CornerFit> FitCorner(const GrayPicture& picture, const Eigen::Vect
     if (moved_px.norm() > kSettled_px) continue;
     const double sigma_px = SigmaOf(edges, parameters);
     if (!std::isfinite(sigma_px)) return std::nullopt;
+    // At the picture's border the four sides of a corner must be seen, beyond their blur.
+    const Eigen::Vector2d inward_px = Eigen::Vector2d::Constant(3 * WithPixels(parameters[kBlur]));
+    if (!picture.Contains(center_px - inward_px) || !picture.Contains(center_px + inward_px))
+      return std::nullopt;
     return CornerFit{.point_px = center_px,
                      .sigma_px = sigma_px,
                      .blur_px = WithPixels(parameters[kBlur]),

@@ -2,10 +2,7 @@
 #include "calib/corner_grid.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
-#include <utility>
 
 namespace articap {
 namespace {

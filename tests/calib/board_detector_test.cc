@@ -215,8 +215,7 @@ TEST(BoardDetectorTest, AnotherBoardIsNotTakenForTheWantedOne) {
 
 TEST(BoardDetectorTest, TheLegacyPatternOfOpenCvIsRefused) {
   const BoardSpec board = Board("charuco:7x6:20:15");
-  // A board of one more row, without its first: it begins with a white square, and its markers
-  // count on from another one; OpenCV's old one counts from 0, as this one does when renumbered.
+  // Drawn by hand: markers in the white squares, of which the first one is at the top left.
   const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_5X5_250);
   constexpr int kSquare_px = 60, kMarker_px = 45, kMargin_px = 60;
   cv::Mat page(kSquare_px * 6 + 2 * kMargin_px, kSquare_px * 7 + 2 * kMargin_px, CV_8UC1,

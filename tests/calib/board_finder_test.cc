@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include <deque>
+#include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/calib/board_picture.h"
 #include "tests/support/result.h"
