@@ -99,6 +99,9 @@ TEST_F(SessionSplitTest, PartsEndWithTheRecordingAndKeepTheirNumbers) {
 
 TEST_F(SessionSplitTest, WhatCannotBeCutIsSaid) {
   EXPECT_THAT(SplitTake(take_, {{20, 21, ""}}, {}).error().message, HasSubstr("nothing"));
+  StoredTake labels_alone = take_;
+  labels_alone.info.files.erase(labels_alone.info.files.begin());
+  EXPECT_THAT(SplitTake(labels_alone, {{2, 3, ""}}, {}).error().message, HasSubstr("nothing"));
   EXPECT_THAT(OrThrow(OpenSession(session_)).unfinished(), IsEmpty());
   SplitRule rule;
   rule.silence = true;
