@@ -106,10 +106,11 @@ std::optional<TakePart> PartOf(const StoredTake& take, const Cut& cut, double pa
   const auto [first_s, last_s] = ExtentOf_s(take);
   const double start_s = std::max(cut.start_s - pad_s, first_s);
   const double end_s = std::min(cut.end_s + pad_s, last_s);
-  const TakePart part = {take.info.id,
-                         SessionTimeFromSeconds(std::min(start_s, last_s)).time_since_epoch(),
-                         SessionTimeFromSeconds(std::max(end_s, first_s)).time_since_epoch()};
-  return part.end > part.start && start_s < end_s ? std::optional(part) : std::nullopt;
+  constexpr double kLongest_s = 9e9;  // within int64 ns
+  if (!(start_s < end_s) || start_s < -kLongest_s || end_s > kLongest_s) return std::nullopt;
+  const TakePart part = {take.info.id, SessionTimeFromSeconds(start_s).time_since_epoch(),
+                         SessionTimeFromSeconds(end_s).time_since_epoch()};
+  return part.end > part.start ? std::optional(part) : std::nullopt;
 }
 
 // Whether markers were recorded, but none then.

@@ -52,8 +52,9 @@ struct MarkerRecording {
   std::vector<std::string> warnings;
 };
 
-// The frames from a time to before another, with all that belongs to them; their numbers and times
-// stay. Events stay too, since they count from the start of the whole recording.
+// The frames from a time to before another, with all that belongs to them; their numbers
+// stay, and their times to a nanosecond. Events stay too, since they count from the start of the
+// whole recording.
 MarkerRecording CropToTimes(const MarkerRecording& recording, SessionTime from, SessionTime to);
 
 }  // namespace articap

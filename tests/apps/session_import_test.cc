@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "apps/take_input.h"
 #include "core/file_io.h"
 #include "tests/support/result.h"
@@ -86,6 +88,33 @@ TEST_F(SessionImportTest, ATakeBringsTheMapAndTheRigOfItsSession) {
   EXPECT_TRUE(WriteFile(session_ / kSessionFileName,
                         WriteSessionInfo({.speaker = "a", .map = "spectacles30"})));
   EXPECT_EQ(OrThrow(FindTakeInput(take.folder.string(), "")).map, "spectacles30");
+}
+
+TEST_F(SessionImportTest, AVideoComesWithItsSoundAndLabelsGoWithIt) {
+  const std::string made =
+      "cd '" + folder_.string() +
+      "' && ffmpeg -nostdin -loglevel error -f lavfi -i testsrc=s=64x48:r=25:d=0.4 -itsoffset 0.1 "
+      "-f lavfi -i sine=r=48000:d=0.2 -pix_fmt yuv420p -c:v libx264 -c:a pcm_s16le "
+      "-movie_timescale 48000 left.mov 2>/dev/null";
+  if (std::system(made.c_str()) != 0)
+    GTEST_SKIP() << "the program ffmpeg, which makes the video, is not there";
+  ImportOptions options;
+  options.video_offset = std::chrono::milliseconds(-40);
+  const StoredTake take =
+      OrThrow(StoreTake(session_, Prepare({"left.mov", "labels.TextGrid"}, options))).take;
+  EXPECT_EQ(take.info.id, "left");
+  EXPECT_THAT(VerifyTake(take), IsEmpty());
+  EXPECT_EQ(take.FilesOf(FileRole::kLabels)[0].offset, options.video_offset);
+  const TakeFile video = take.VideoOf("left").at(0);
+  EXPECT_EQ(video.offset, options.video_offset);
+  EXPECT_EQ(video.rate_hz, 25);
+  EXPECT_EQ(video.frames, 10);
+  EXPECT_EQ(video.width, 64);
+  const TakeFile sound = take.FilesOf(FileRole::kAudio).at(0);
+  EXPECT_EQ(sound.name, "left.wav");
+  EXPECT_EQ(sound.made_from, "left.mov");
+  EXPECT_EQ(sound.offset, std::chrono::milliseconds(60));
+  EXPECT_EQ(sound.frames, 9600);
 }
 
 TEST_F(SessionImportTest, NoFileTakesTheNameOfAnother) {
