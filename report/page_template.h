@@ -5,8 +5,9 @@
 
 namespace articap {
 
-// The page without its data, made of report/page/ when articap is built: HTML with its style and
+// The pages without their data, made of report/page/ when articap is built: HTML with its style and
 // its script, holding the marks {{articap:title}} and {{articap:data}}.
-std::string_view PageTemplate();
+std::string_view PageTemplate();             // of a fit
+std::string_view CalibrationPageTemplate();  // of a calibration
 
 }  // namespace articap

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Bundles the report page into one HTML text and that into a C++ source:
-//   node bundle.mjs NODE_MODULES page_template.cc
+// Bundles a page into one HTML text and that into a C++ source that defines FUNCTION:
+//   node bundle.mjs NODE_MODULES FOLDER FUNCTION template.cc
+// FOLDER holds page.html, main.js and style.css.
 import {readFileSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
-import {dirname, join, resolve} from 'node:path';
-import {fileURLToPath} from 'node:url';
+import {join, resolve} from 'node:path';
 
-const [modules, output] = process.argv.slice(2).map((path) => resolve(path));
-const source = join(dirname(fileURLToPath(import.meta.url)), 'src');
+const [modulesPath, sourcePath, functionName, output] = process.argv.slice(2);
+const modules = resolve(modulesPath);
+const source = resolve(sourcePath);
 const esbuild = createRequire(join(modules, 'any.js'))('esbuild');
 
 function bundle(entry) {
@@ -42,7 +43,7 @@ writeFileSync(output, `// Made by report/page/bundle.mjs; do not edit.
 
 namespace articap {
 
-std::string_view PageTemplate() {
+std::string_view ${functionName}() {
   static constexpr char kPage[] =
 ${pieces.join('\n')};
   return {kPage, sizeof kPage - 1};

@@ -4,49 +4,16 @@
 // Exit code 77 (skipped) where there is no Chromium.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {existsSync, mkdtempSync, rmSync} from 'node:fs';
-import {createRequire} from 'node:module';
-import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
-import {pathToFileURL} from 'node:url';
 
-const [sampleResults, modules] = process.argv.slice(2).map((path) => resolve(path));
-const kChromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
-if (!existsSync(kChromium)) {
-  console.log(`${kChromium} is not there: the report page was not tried in a browser`);
-  process.exit(77);
-}
-const {chromium} = createRequire(join(modules, 'any.js'))('playwright-core');
+import {folder, openInBrowser, runTests} from './browser.mjs';
 
-const folder = mkdtempSync(join(tmpdir(), 'articap-page-'));
-const browser = await chromium.launch({
-  executablePath: kChromium,
-  args: [
-    '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
-    '--disable-component-update', '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader',
-    '--enable-unsafe-swiftshader',
-  ],
-});
+const sampleResults = resolve(process.argv[2]);
 
 async function openPage(numFrames, viewport, colorScheme) {
   const results = join(folder, String(numFrames));
   execFileSync(sampleResults, [results, String(numFrames)]);
-  const context = await browser.newContext({viewport, colorScheme, offline: true});
-  const page = await context.newPage();
-  page.complaints = [];
-  page.on('console', (message) => {
-    // Software rendering is slow and says so; that is the machine's, not the page's.
-    if (['error', 'warning'].includes(message.type()) && !/GPU stall|GroupMarker/.test(message.text()))
-      page.complaints.push(message.text());
-  });
-  page.on('pageerror', (error) => page.complaints.push(error.stack));
-  page.on('request', (request) => {
-    if (!/^(file|data|blob):/.test(request.url())) page.complaints.push(`asked for ${request.url()}`);
-  });
-  await page.goto(pathToFileURL(join(results, 'report.html')).href);
-  await page.waitForFunction(() => document.documentElement.dataset.ready === 'true');
-  await page.waitForTimeout(300);
-  return page;
+  return openInBrowser(join(results, 'report.html'), viewport, colorScheme);
 }
 
 /** How many colours a canvas shows: one means blank. */
@@ -138,16 +105,4 @@ const tests = {
   },
 };
 
-let failures = 0;
-for (const [name, test] of Object.entries(tests)) {
-  try {
-    await test();
-    console.log(`ok: ${name}`);
-  } catch (error) {
-    failures += 1;
-    console.log(`FAILED: ${name}\n${error.stack}`);
-  }
-}
-await browser.close();
-rmSync(folder, {recursive: true});
-process.exit(failures ? 1 : 0);
+await runTests(tests);

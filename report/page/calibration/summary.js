@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// The head of the page: what was calibrated, the verdict, what it means, the warnings.
+import {element} from '../src/text.js';
+
+import {countOf, isKnown, isUsed, percent, pixels} from './statistics.js';
+
+function titleOf({calibration}) {
+  const {cameras, mirrors, wand} = calibration;
+  if (wand) return `${countOf(cameras.length, 'camera')} calibrated by a wand`;
+  if (mirrors.length > 0)
+    return `Calibration of ${cameras[0].name} with ${countOf(mirrors.length, 'mirror')}`;
+  return cameras.length > 1 ? `Calibration of ${cameras.length} cameras` :
+                              `Calibration of the lens of ${cameras[0].name}`;
+}
+
+function factsOf({calibration}) {
+  const {wand, board, sightings, cameras} = calibration;
+  if (wand) return [countOf(wand.instants, 'instant'), cameras.map(({name}) => name).join(', ')];
+  const used = sightings.filter(isUsed).length;
+  return [
+    `board ${board.name} (${board.corner_columns} × ${board.corner_rows} corners, ${
+        board.square_mm} mm apart)`,
+    `${countOf(used, 'sighting')} used`, `${sightings.length - used} set aside`
+  ];
+}
+
+/** Sentences that need no knowledge of calibration. */
+function meaningOf({calibration}) {
+  const {wand, cameras, held_out: heldOut} = calibration;
+  const what = wand ? 'the markers of the wand' : 'the corners of the board';
+  const meaning =
+      [`On average (RMS) ${what} were seen ${
+           pixels(calibration.rms_px)} from where the calibration expects them; ` +
+       `the noise of one coordinate is ${pixels(calibration.sigma_px)} (standard deviation).`];
+  if (heldOut && isKnown(heldOut.rms_px))
+    meaning.push(
+        `Pictures that were left out in turn are predicted to ${pixels(heldOut.rms_px)}: ` +
+        (heldOut.rms_px <= 1.25 * calibration.rms_px ?
+             'as well as those that were used, so the lens model is not too rich.' :
+             'worse than those that were used. Record more pictures, or use a simpler lens ' +
+                  'model.'));
+  if (!wand)
+    meaning.push(
+        `Corners were seen in ${
+            cameras
+                .map(
+                    ({name, coverage}) => `${percent(coverage.part)} of the picture${
+                        cameras.length > 1 ? ` of ${name}` : ''}`)
+                .join(', ')}; ` +
+        'elsewhere the distortion is extrapolated.');
+  return meaning;
+}
+
+/** Those of pictures set aside are said once; the reasons stand with the pictures. */
+function warningsOf({warnings, calibration}) {
+  const aside = (calibration.sightings ?? []).filter(({used}) => !used);
+  const said = new Set(aside.map(({source, reason}) => `${source} is set aside: ${reason}`));
+  const others = warnings.filter((warning) => !said.has(warning));
+  if (aside.length > 0)
+    others.push(
+        `${countOf(aside.length, 'sighting')} of ${
+            calibration.sightings.length} set aside, with the reasons below. ` +
+        'Look at these pictures: was the board moving, bent or partly hidden? If enough others ' +
+        'remain, nothing needs to be done.');
+  return others;
+}
+
+function gradeOf(data, warnings) {
+  if (!data.usable) return ['bad', '✗', 'Not usable'];
+  if (warnings.length > 0)
+    return [
+      'caution', '!',
+      warnings.length === 1 ? 'Usable, with a warning' : `Usable, with ${warnings.length} warnings`
+    ];
+  return ['good', '✓', 'Usable'];
+}
+
+export function showSummary(data) {
+  document.title = document.getElementById('title').textContent = titleOf(data);
+  document.getElementById('facts').textContent = factsOf(data).join(' · ');
+  const warnings = warningsOf(data);
+  const [grade, sign, words] = gradeOf(data, warnings);
+  const verdict = document.getElementById('verdict');
+  verdict.classList.add(grade);
+  verdict.append(
+      element(
+          'p', {class: 'grade'}, element('span', {class: 'sign', 'aria-hidden': 'true'}, sign),
+          words),
+      element('p', {class: 'says'}, data.verdict.replace(/^usable: /, '').replace(' +- ', ' ± ')),
+      element('ul', {}, ...meaningOf(data).map((sentence) => element('li', {}, sentence))));
+  if (warnings.length === 0) return;
+  const section = document.getElementById('warnings');
+  section.hidden = false;
+  section.append(
+      element('h2', {}, warnings.length === 1 ? 'One warning' : `${warnings.length} warnings`),
+      element('ul', {}, ...warnings.map((warning) => element('li', {}, warning))));
+}
