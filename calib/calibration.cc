@@ -60,7 +60,8 @@ Calibration MakeCalibration(const std::vector<CameraSightings>& inputs,
     const BoardSighting& sighting = inputs[key.camera].sightings[key.sighting];
     calibration.sightings.push_back(
         {.source = sighting.source,
-         .view = {key.camera, -1},
+         // Which mirror it was nobody knows any more.
+         .view = {key.camera, sighting.mirrored && !network.array.mirrors.empty() ? 0 : -1},
          .used = false,
          .reason = reason,
          .corners = sighting.corners,

@@ -95,6 +95,12 @@ ReportTable MirrorTable(const CameraArray& array) {
   return table;
 }
 
+// "003.png", or "left 003.png" where there are several views.
+std::string SourceOf(const Calibration& calibration, const SightingResult& sighting) {
+  if (calibration.array.views().size() == 1) return sighting.source;
+  return calibration.array.NameOf(sighting.view) + " " + sighting.source;
+}
+
 // The worst first.
 ReportTable WorstSightings(const Calibration& calibration) {
   constexpr std::size_t kMost = 5;
@@ -115,7 +121,7 @@ void WarnOfSetAside(const Calibration& calibration, StageReport& report) {
   for (const SightingResult& sighting : calibration.sightings)
     if (!sighting.used)
       report.warnings.push_back(
-          fmt::format("{} is set aside: {}", sighting.source, sighting.reason));
+          fmt::format("{} is set aside: {}", SourceOf(calibration, sighting), sighting.reason));
 }
 
 void WarnOfGaps(const Calibration& calibration, StageReport& report) {

@@ -59,7 +59,8 @@ struct AdjustOptions {
   // Huber's loss from here on, px; 0: plain least squares.
   double huber_px = 0;
   int max_iterations = 100;
-  int num_threads = 2;
+  // More threads add up in another order, to other last digits.
+  int num_threads = 1;
 };
 
 // A parameter of the cameras in the order of AdjustedNetwork::covariance.

@@ -54,8 +54,9 @@ function meaningOf({calibration}) {
 /** Those of pictures set aside are said once; the reasons stand with the pictures. */
 function warningsOf({warnings, calibration}) {
   const aside = (calibration.sightings ?? []).filter(({used}) => !used);
-  const said = new Set(aside.map(({source, reason}) => `${source} is set aside: ${reason}`));
-  const others = warnings.filter((warning) => !said.has(warning));
+  const others = warnings.filter(
+      (warning) => !aside.some(
+          ({source, reason}) => warning.endsWith(`${source} is set aside: ${reason}`)));
   if (aside.length > 0)
     others.push(
         `${countOf(aside.length, 'sighting')} of ${
