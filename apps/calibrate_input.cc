@@ -104,6 +104,21 @@ std::string NameOfPath(const std::string& path) {
   return fs::is_directory(last) ? last.filename().string() : last.stem().string();
 }
 
+// Of left01.jpg, left02.jpg: "left"; of one path its own name.
+std::string CommonNameOf(const std::vector<std::string>& paths) {
+  std::string common = NameOfPath(paths.front());
+  if (paths.size() == 1) return common;
+  for (const std::string& path : paths) {
+    const std::string name = NameOfPath(path);
+    const auto differ = std::mismatch(common.begin(), common.end(), name.begin(), name.end());
+    common.erase(differ.first, common.end());
+  }
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const auto last = std::find_if(common.rbegin(), common.rend(), is_letter);
+  common.erase(last.base(), common.end());
+  return common.empty() ? "camera" : common;
+}
+
 }  // namespace
 
 void AddBoardInput(VerbLine& line, BoardInput& input) {
@@ -124,8 +139,7 @@ Result<SeenCamera> SeeOneCamera(const BoardSpec& board, const BoardInput& input)
   Result<Sightings> found = LookForBoards(**source, board, input);
   if (!found) return tl::unexpected(found.error());
   if (found->is_video) found->found = ChooseViews(*found, board, input.choose).views;
-  const std::string name = paths.size() == 1 ? NameOfPath(input.paths[0]) : "camera";
-  SeenCamera camera = MakeSeenCamera(SafeNameOf(name), *found);
+  SeenCamera camera = MakeSeenCamera(SafeNameOf(CommonNameOf(input.paths)), *found);
   if (const auto known = AddKnownLens(input, camera); !known) return tl::unexpected(known.error());
   return camera;
 }

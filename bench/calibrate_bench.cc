@@ -6,6 +6,7 @@
 #include <opencv2/calib3d.hpp>
 #include <random>
 
+#include "calib/lens_model.h"
 #include "calib/lens_solver.h"
 #include "calib/network.h"
 #include "tests/calib/network_scene.h"

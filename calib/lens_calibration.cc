@@ -7,6 +7,7 @@
 
 #include "calib/calibration_report.h"
 #include "calib/held_out.h"
+#include "calib/lens_model.h"
 #include "calib/lens_solver.h"
 
 namespace articap {

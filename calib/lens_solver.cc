@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,38 +10,13 @@
 #include <utility>
 
 #include "calib/held_out.h"
+#include "calib/lens_model.h"
 #include "calib/network_screening.h"
 #include "calib/planar_pose.h"
 #include "calib/view_screening.h"
 
 namespace articap {
 namespace {
-
-// Coefficients are kept where they lower Akaike's criterion, 2 a coefficient: leaving out what is
-// there, if only just above the noise, costs more than keeping what is not, and the sigmas of all
-// others would not say so. (H. Akaike, IEEE Trans. Automatic Control 19(6), 1974.)
-constexpr double kWorthOfCoefficient = 2;
-
-// What each model adds to the one before.
-std::vector<int> AddedBy(LensModel model) {
-  switch (model) {
-    case LensModel::kPinhole:
-      return {};
-    case LensModel::kK1:
-      return {Lens::kK1};
-    case LensModel::kK1K2:
-      return {Lens::kK2};
-    case LensModel::kBrown4:
-      return {Lens::kP1, Lens::kP2};
-    case LensModel::kBrown5:
-      return {Lens::kK3};
-    case LensModel::kRational:
-      return {Lens::kK4, Lens::kK5, Lens::kK6};
-  }
-  return {};
-}
-
-LensModel Below(LensModel model) { return static_cast<LensModel>(static_cast<int>(model) - 1); }
 
 std::vector<int> AllSightings(const CameraSightings& camera) {
   std::vector<int> all(camera.sightings.size());
@@ -124,42 +98,12 @@ Result<AdjustedNetwork> StartFromNothing(const BoardSpec& board, const CameraSig
   return *std::move(best);
 }
 
-// Whether the coefficients that the model adds are worth their number.
-bool IsSupported(const AdjustedNetwork& adjusted, LensModel model) {
-  std::vector<int> columns;
-  std::vector<double> values;
-  for (int coefficient : AddedBy(model))
-    for (int i = 0; i < static_cast<int>(adjusted.parameters.size()); ++i)
-      if (adjusted.parameters[i] ==
-          CameraParameter{CameraParameter::Kind::kDistortion, 0, coefficient}) {
-        columns.push_back(i);
-        values.push_back(adjusted.network.array.cameras[0].lens.distortion[coefficient]);
-      }
-  const int count = static_cast<int>(columns.size());
-  Eigen::MatrixXd covariance(count, count);
-  for (int a = 0; a < count; ++a)
-    for (int b = 0; b < count; ++b) covariance(a, b) = adjusted.covariance(columns[a], columns[b]);
-  if (!covariance.allFinite()) return false;
-  const Eigen::Map<const Eigen::VectorXd> value(values.data(), count);
-  return value.dot(covariance.ldlt().solve(value)) > kWorthOfCoefficient * count;
-}
-
-// The network again, without the coefficients that a simpler model does not have.
-Network WithModel(Network network, LensModel model, const LensOptions& options) {
-  const LensFreedom freedom = FreedomOf(model, options);
-  auto& distortion = network.array.cameras[0].lens.distortion;
-  for (int i = 0; i < Lens::kNumDistortion; ++i)
-    if (!freedom.distortion[i]) distortion[i] = 0;
-  return network;
-}
-
-// Leaves out what the views do not support, from the richest coefficients down.
-void Simplify(SolvedLens& solved, const LensOptions& options, double huber_px) {
-  while (solved.model != LensModel::kPinhole && !IsSupported(solved.adjusted, solved.model)) {
-    solved.model = Below(solved.model);
-    solved.adjusted = Adjust(WithModel(solved.adjusted.network, solved.model, options),
-                             OptionsFor(FreedomOf(solved.model, options), huber_px));
-  }
+void Simplify(SolvedLens& solved, const LensOptions& options) {
+  std::vector<LensModel> models = {solved.model};
+  const double huber_px = HuberFor_px(solved.adjusted.residuals_px, options.huber_sigmas);
+  AdjustOptions adjust = OptionsFor(FreedomOf(solved.model, options), huber_px);
+  solved.adjusted = SimplifyLenses(std::move(solved.adjusted), options, adjust, models);
+  solved.model = models[0];
 }
 
 // The full model on the sightings that are kept, and which of them do not fit.
@@ -170,8 +114,7 @@ AdjustedNetwork SolveFullModel(const BoardSpec& board, const CameraSightings& in
   const LensFreedom freedom = FreedomOf(model, options);
   const Network network = PlaceSightings(board, input, start, kept);
   const double first_huber_px = options.huber_sigmas == 0 ? 0 : 1;
-  AdjustedNetwork adjusted =
-      Adjust(WithModel(network, model, options), OptionsFor(freedom, first_huber_px));
+  AdjustedNetwork adjusted = Adjust(network, OptionsFor(freedom, first_huber_px));
   // Now that the lens is known, a board may turn out to stand in its other pose.
   const Network again = PlaceSightings(board, input, adjusted.network.array.cameras[0], kept);
   return Adjust(again,
@@ -239,7 +182,7 @@ void TryRational(SolvedLens& solved, const LensOptions& options) {
   std::string against;
   if (!rational.converged || !std::isfinite(rational.sigma_px))
     against = "it does not converge";
-  else if (!IsSupported(rational, LensModel::kRational) ||
+  else if (!IsSupported(rational, 0, LensModel::kRational) ||
            !IsDenominatorKnown(rational.network.array.cameras[0]))
     against = fmt::format(
         "k4 would be {:.2f} +- {:.2f}, as its numerator and denominator make up for one another",
@@ -263,16 +206,6 @@ void TryRational(SolvedLens& solved, const LensOptions& options) {
 
 }  // namespace
 
-LensFreedom FreedomOf(LensModel model, const LensOptions& options) {
-  LensFreedom freedom;
-  freedom.focal = true;
-  freedom.aspect = !options.fixed_aspect;
-  freedom.principal_point = !options.fixed_principal_point;
-  for (LensModel part = model; part != LensModel::kPinhole; part = Below(part))
-    for (int coefficient : AddedBy(part)) freedom.distortion[coefficient] = true;
-  return freedom;
-}
-
 Result<SolvedLens> SolveLens(const BoardSpec& board, const CameraSightings& camera,
                              const LensOptions& options) {
   const Result<Camera> start = StartOf(board, camera);
@@ -287,8 +220,7 @@ Result<SolvedLens> SolveLens(const BoardSpec& board, const CameraSightings& came
         camera.camera, solved.set_aside.size(), camera.sightings.size(),
         camera.sightings[first.sighting].source, reason));
   }
-  if (options.simplify)
-    Simplify(solved, options, HuberFor_px(solved.adjusted.residuals_px, options.huber_sigmas));
+  if (options.simplify) Simplify(solved, options);
   if (options.model == LensModel::kRational) TryRational(solved, options);
   return solved;
 }

@@ -10,9 +10,6 @@
 
 namespace articap {
 
-// The coefficients of a model.
-LensFreedom FreedomOf(LensModel model, const LensOptions& options);
-
 struct SolvedLens {
   AdjustedNetwork adjusted;  // one camera; one placement a sighting that was kept
   LensModel model = LensModel::kBrown5;

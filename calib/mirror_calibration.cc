@@ -11,6 +11,7 @@
 
 #include "calib/calibration_report.h"
 #include "calib/held_out.h"
+#include "calib/lens_model.h"
 #include "calib/lens_solver.h"
 #include "calib/network_screening.h"
 #include "calib/planar_pose.h"
@@ -231,6 +232,8 @@ Result<void> RefuseUnusable(const BoardSpec& board, const CameraSightings& camer
         "apart; use a board with an even number of corners one way and an odd one the other, or a "
         "ChArUco board",
         NameOf(board)));
+  if (camera.sightings.empty())
+    return Fail(fmt::format("{}: no picture shows the board", camera.camera));
   std::map<std::int64_t, std::pair<bool, bool>> ways;
   for (const BoardSighting& sighting : camera.sightings)
     (sighting.mirrored ? ways[sighting.frame].second : ways[sighting.frame].first) = true;
@@ -249,27 +252,42 @@ Result<void> RefuseUnusable(const BoardSpec& board, const CameraSightings& camer
 
 struct StartingLens {
   Camera camera;
+  LensModel model = LensModel::kPinhole;
   LensFreedom freedom;
   LeftOutSightings set_aside;
   std::vector<std::string> warnings;
 };
 
-// From every sighting by itself, mirrored or not: for a single plane that makes no difference.
+// From what is seen directly: glass before a mirror is nothing that a lens alone could explain.
 Result<StartingLens> StartLens(const BoardSpec& board, const CameraSightings& camera,
                                const LensOptions& lens_options, const MirrorOptions& options) {
-  if (camera.lens && !options.adjust_lens)
-    return StartingLens{{.name = camera.camera,
-                         .width = camera.width,
-                         .height = camera.height,
-                         .lens = *camera.lens},
-                        {},
-                        {},
-                        {}};
-  Result<SolvedLens> solved = SolveLens(board, camera, lens_options);
+  StartingLens start;
+  if (camera.lens && !options.adjust_lens) {
+    start.camera = {.name = camera.camera,
+                    .width = camera.width,
+                    .height = camera.height,
+                    .lens = *camera.lens};
+    return start;
+  }
+  CameraSightings direct = camera;
+  std::vector<int> index_in_camera;
+  direct.sightings.clear();
+  for (int i = 0; i < static_cast<int>(camera.sightings.size()); ++i)
+    if (!camera.sightings[i].mirrored) {
+      direct.sightings.push_back(camera.sightings[i]);
+      index_in_camera.push_back(i);
+    }
+  LensOptions lens_start = lens_options;
+  lens_start.simplify = false;  // by all sightings, in the end
+  Result<SolvedLens> solved = SolveLens(board, direct, lens_start);
   if (!solved) return tl::unexpected(solved.error());
-  return StartingLens{solved->adjusted.network.array.cameras[0],
-                      FreedomOf(solved->model, lens_options), std::move(solved->set_aside),
-                      std::move(solved->warnings)};
+  start.camera = solved->adjusted.network.array.cameras[0];
+  start.model = solved->model;
+  start.freedom = FreedomOf(solved->model, lens_options);
+  for (const auto& [key, reason] : solved->set_aside)
+    start.set_aside[{0, index_in_camera[key.sighting]}] = reason;
+  start.warnings = std::move(solved->warnings);
+  return start;
 }
 
 }  // namespace
@@ -307,9 +325,14 @@ Result<StageResult<Calibration>> CalibrateMirror(const BoardSpec& board,
         camera.camera, found.planes.size(), found.planes.size() == 1 ? "" : "s", options.mirrors));
   AdjustOptions adjust;
   adjust.lenses = {start->freedom};
-  const AdjustedNetwork adjusted =
+  AdjustedNetwork adjusted =
       AdjustAndScreen(BuildNetwork(std::move(scene), found, options, set_aside), adjust,
                       {options.huber_sigmas, options.set_views_aside}, set_aside);
+  if (lens_options.simplify) {
+    std::vector<LensModel> models = {start->model};
+    adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
+    adjusted = SimplifyLenses(std::move(adjusted), lens_options, adjust, models);
+  }
   Calibration calibration = MakeCalibration({camera}, adjusted, set_aside);
   calibration.held_out = HeldOutRigidity(adjusted.network, adjust, adjusted.sigma_px);
   StageReport report =

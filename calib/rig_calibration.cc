@@ -10,6 +10,7 @@
 #include "calib/calibration_report.h"
 #include "calib/held_out.h"
 #include "calib/instants.h"
+#include "calib/lens_model.h"
 #include "calib/lens_solver.h"
 #include "calib/network_screening.h"
 #include "calib/planar_pose.h"
@@ -21,6 +22,7 @@ namespace {
 // The cameras one by one, before anything is known of where they stand.
 struct StartingCameras {
   std::vector<Camera> cameras;
+  std::vector<LensModel> models;
   std::vector<LensFreedom> freedoms;
   LeftOutSightings set_aside;
   std::vector<std::string> warnings;
@@ -47,6 +49,8 @@ Result<StartingCameras> SolveLenses(const BoardSpec& board,
                                     const std::vector<CameraSightings>& inputs,
                                     const LensOptions& lens_options, const RigOptions& options) {
   StartingCameras start;
+  LensOptions lens_start = lens_options;
+  lens_start.simplify = false;  // by the whole rig, in the end
   for (int index = 0; index < static_cast<int>(inputs.size()); ++index) {
     const CameraSightings& input = inputs[index];
     if (input.lens && !options.adjust_lenses) {
@@ -54,12 +58,14 @@ Result<StartingCameras> SolveLenses(const BoardSpec& board,
                                .width = input.width,
                                .height = input.height,
                                .lens = *input.lens});
+      start.models.push_back(LensModel::kPinhole);
       start.freedoms.emplace_back();
       continue;
     }
-    Result<SolvedLens> solved = SolveLens(board, input, lens_options);
+    Result<SolvedLens> solved = SolveLens(board, input, lens_start);
     if (!solved) return tl::unexpected(solved.error());
     start.cameras.push_back(solved->adjusted.network.array.cameras[0]);
+    start.models.push_back(solved->model);
     start.freedoms.push_back(FreedomOf(solved->model, lens_options));
     for (auto& [key, reason] : solved->set_aside) start.set_aside[{index, key.sighting}] = reason;
     for (const std::string& warning : solved->warnings)
@@ -123,8 +129,12 @@ Result<StageResult<Calibration>> CalibrateRig(const BoardSpec& board,
   adjust.lenses = start->freedoms;
   adjust.free_time_offsets = options.free_time_offsets;
   LeftOutSightings set_aside = std::move(start->set_aside);
-  const AdjustedNetwork adjusted = AdjustAndScreen(
+  AdjustedNetwork adjusted = AdjustAndScreen(
       *std::move(network), adjust, {options.huber_sigmas, options.set_views_aside}, set_aside);
+  if (lens_options.simplify) {
+    adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
+    adjusted = SimplifyLenses(std::move(adjusted), lens_options, adjust, start->models);
+  }
   Calibration calibration = MakeCalibration(cameras, adjusted, set_aside);
   if (!options.free_time_offsets)
     calibration.held_out = HeldOutRigidity(adjusted.network, adjust, adjusted.sigma_px);

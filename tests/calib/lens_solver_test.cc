@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "calib/lens_model.h"
 #include "calib/lens_solver.h"
 
 #include <gmock/gmock.h>

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "calib/lens_solver.h"
+#include "calib/lens_model.h"
 #include "tests/calib/network_scene.h"
 
 namespace articap {
