@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "calib/lens_model.h"
 #include "calib/lens_solver.h"
+#include "calib/lens_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
