@@ -10,6 +10,8 @@ ExitCode CalibrateCommand(const std::vector<std::string>& arguments) {
       {"rig", "where several cameras stand, from a board that they see together",
        CalibrateRigCommand},
       {"mirror", "a camera and the mirrors in its picture, from a board", CalibrateMirrorCommand},
+      {"mirror-dots", "a mirror without a board, from dots of the face",
+       CalibrateMirrorDotsCommand},
       {"wand", "where several cameras stand, from a waved wand", CalibrateWandCommand},
       {"convert", "between files of calibrated cameras", CalibrateConvertCommand},
   };

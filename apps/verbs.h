@@ -17,6 +17,7 @@ ExitCode CalibrateCommand(const std::vector<std::string>& arguments);
 ExitCode CalibrateLensCommand(const std::vector<std::string>& arguments);
 ExitCode CalibrateRigCommand(const std::vector<std::string>& arguments);
 ExitCode CalibrateMirrorCommand(const std::vector<std::string>& arguments);
+ExitCode CalibrateMirrorDotsCommand(const std::vector<std::string>& arguments);
 ExitCode CalibrateWandCommand(const std::vector<std::string>& arguments);
 ExitCode CalibrateConvertCommand(const std::vector<std::string>& arguments);
 ExitCode StabilizeCommand(const std::vector<std::string>& arguments);
