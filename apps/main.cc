@@ -15,7 +15,7 @@ namespace {
 // In the order of the data.
 const std::vector<articap::VerbEntry>& Verbs() {
   static const std::vector<articap::VerbEntry> verbs = {
-      {"session", "the recordings of a speaker on disk: new, import, info",
+      {"session", "the recordings of a speaker on disk: new, import, split, info",
        articap::SessionCommand},
       {"calibrate", "cameras, their lenses, mirrors: lens, rig, mirror, wand, print, convert",
        articap::CalibrateCommand},
