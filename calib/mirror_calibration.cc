@@ -159,6 +159,57 @@ FoundMirrors FindMirrors(const MirrorScene& scene, int most) {
   return found;
 }
 
+// A chessboard looks the same in a mirror, but for the order of its corners: taken for the wrong
+// one of the two, it was counted from another corner.
+BoardSighting SeenTheOtherWay(const BoardSpec& board, const BoardSighting& sighting) {
+  const int columns = board.corner_columns(), rows = board.corner_rows();
+  std::map<int, Eigen::Vector2d> points_px;
+  for (std::size_t i = 0; i < sighting.corners.size(); ++i) {
+    const int column = sighting.corners[i] % columns, row = sighting.corners[i] / columns;
+    // Of the two reflections of the count that which has a dark square before its first corner.
+    const int other = columns % 2 == 0 ? row * columns + columns - 1 - column
+                                       : (rows - 1 - row) * columns + column;
+    points_px[other] = sighting.points_px[i];
+  }
+  BoardSighting result = sighting;
+  result.mirrored = !sighting.mirrored;
+  result.corners.clear();
+  result.points_px.clear();
+  for (const auto& [corner, point_px] : points_px) {
+    result.corners.push_back(corner);
+    result.points_px.push_back(point_px);
+  }
+  return result;
+}
+
+// Whether the mirror would have the board stand behind it.
+bool IsBehind(const MirrorScene& scene, const Plane& plane, int direct) {
+  const BoardSpec& board = scene.board;
+  const Eigen::Vector3d middle =
+      (board.corner_in_board_mm(0) + board.corner_in_board_mm(board.num_corners() - 1)) / 2;
+  const Rigid3d& pose = scene.poses.at(direct).front().cam_from_board;
+  return plane.normal.dot(pose * middle) > plane.distance_mm;
+}
+
+// Of two chessboards in a picture the nearer one counts as seen directly, which it need not be. A
+// plane explains the exchanged views as well, but for its glass: it then has the board behind it.
+// Returns whether any two were exchanged.
+bool ExchangeViews(const MirrorScene& scene, const FoundMirrors& found, CameraSightings& camera) {
+  bool any = false;
+  if (scene.board.kind != BoardKind::kChessboard) return any;
+  for (const auto& [frame, picture] : scene.pictures) {
+    if (picture.direct.size() != 1 || picture.mirrored.size() != 1) continue;
+    const auto mirror = found.mirror_of.find(picture.mirrored[0]);
+    if (mirror == found.mirror_of.end() ||
+        !IsBehind(scene, found.planes[mirror->second], picture.direct[0]))
+      continue;
+    for (int index : {picture.direct[0], picture.mirrored[0]})
+      camera.sightings[index] = SeenTheOtherWay(scene.board, camera.sightings[index]);
+    any = true;
+  }
+  return any;
+}
+
 Mirror MirrorOf(const Plane& plane, int index, const MirrorOptions& options) {
   Mirror mirror;
   mirror.name = options.mirrors == 1 ? "mirror" : fmt::format("mirror{}", index + 1);
@@ -308,16 +359,21 @@ void VisitOptions(MirrorOptions& options, OptionVisitor& visit) {
 }
 
 Result<StageResult<Calibration>> CalibrateMirror(const BoardSpec& board,
-                                                 const CameraSightings& camera,
+                                                 const CameraSightings& input,
                                                  const LensOptions& lens_options,
                                                  const MirrorOptions& options) {
-  if (const auto usable = RefuseUnusable(board, camera); !usable)
+  if (const auto usable = RefuseUnusable(board, input); !usable)
     return tl::unexpected(usable.error());
-  Result<StartingLens> start = StartLens(board, camera, lens_options, options);
+  Result<StartingLens> start = StartLens(board, input, lens_options, options);
   if (!start) return tl::unexpected(start.error());
   LeftOutSightings set_aside = std::move(start->set_aside);
+  CameraSightings camera = input;
   MirrorScene scene = MakeScene(board, camera, start->camera, set_aside);
-  const FoundMirrors found = FindMirrors(scene, options.mirrors);
+  FoundMirrors found = FindMirrors(scene, options.mirrors);
+  if (ExchangeViews(scene, found, camera)) {
+    scene = MakeScene(board, camera, start->camera, set_aside);
+    found = FindMirrors(scene, options.mirrors);
+  }
   if (static_cast<int>(found.planes.size()) < options.mirrors)
     return Fail(fmt::format(
         "{}: the pictures show {} plane mirror{}, not {}; the board beside a mirror and its "

@@ -79,6 +79,33 @@ TEST(MirrorCalibrationTest, GlassThatIsNotSaidMovesTheMirror) {
   EXPECT_GT(wrong.normal_in_stage.cross(truth.normal_in_stage).norm(), 2e-3);
 }
 
+// What the detector does where the board's image happens to be the larger one.
+TEST(MirrorCalibrationTest, ViewsTakenForOneAnotherAreExchanged) {
+  const NetworkScene scene = MirrorScene(4, 15);
+  CameraSightings seen = SeeBoards(scene, 0.1, 4)[0];
+  const int columns = 9, rows = 6;
+  for (BoardSighting& sighting : seen.sightings) {
+    if (sighting.frame != 3 && sighting.frame != 8) continue;
+    // 9 x 6 corners read from the mirrored side are counted from the last row up.
+    std::vector<Eigen::Vector2d> counted(sighting.points_px.size());
+    for (int corner = 0; corner < rows * columns; ++corner)
+      counted[(rows - 1 - corner / columns) * columns + corner % columns] =
+          sighting.points_px[corner];
+    sighting.points_px = counted;
+    sighting.mirrored = !sighting.mirrored;
+  }
+  const auto found = CalibrateMirror(scene.board, seen, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->output.sightings.size(), 30U);
+  for (const Placement& placement : found->output.placements)
+    EXPECT_LT(scene.array.mirrors[0].normal_in_stage.dot(placement.stage_from_board.translation_mm),
+              scene.array.mirrors[0].distance_mm)
+        << "behind the mirror";
+  for (const SightingResult& sighting : found->output.sightings)
+    EXPECT_TRUE(sighting.used) << sighting.source << ": " << sighting.reason;
+  EXPECT_NEAR(found->output.sigma_px, 0.1, 0.01);
+}
+
 TEST(MirrorCalibrationTest, TwoMirrorsAreToldApart) {
   NetworkScene scene = MirrorScene(2, 15);
   Mirror left = scene.array.mirrors[0];
