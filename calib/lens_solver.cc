@@ -116,7 +116,11 @@ Result<AdjustedNetwork> SolveFullModel(const BoardSpec& board, const CameraSight
                                        const LensOptions& options) {
   const LensModel model = std::min(options.model, LensModel::kBrown5);
   const LensFreedom freedom = FreedomOf(model, options);
-  const Network network = PlaceSightings(board, input, start, kept);
+  // Coefficients that are not of the model are none, whatever the start has of them.
+  Camera from = start;
+  for (int i = 0; i < Lens::kNumDistortion; ++i)
+    if (!freedom.distortion[i]) from.lens.distortion[i] = 0;
+  const Network network = PlaceSightings(board, input, from, kept);
   if (network.sightings.empty()) return NoPlane(input);
   const double first_huber_px = options.huber_sigmas == 0 ? 0 : 1;
   AdjustedNetwork adjusted = Adjust(network, OptionsFor(freedom, first_huber_px));
