@@ -9,7 +9,7 @@
 
 namespace articap {
 
-double MedianOf(std::vector<double> values) {
+double UpperMedianOf(std::vector<double> values) {
   ARTICAP_CHECK(!values.empty());
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

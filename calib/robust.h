@@ -8,7 +8,7 @@
 namespace articap {
 
 // The median (of an even number the upper one); there must be values.
-double MedianOf(std::vector<double> values);
+double UpperMedianOf(std::vector<double> values);
 
 // What a view may be off before everything is adjusted, px: lenses and poses are still rough, and
 // cameras may not quite be synchronous.

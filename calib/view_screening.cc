@@ -28,10 +28,10 @@ struct Usual {
 };
 
 Usual UsualOf(const std::vector<double>& rms_px) {
-  const double median = MedianOf(rms_px);
+  const double median = UpperMedianOf(rms_px);
   std::vector<double> deviations;
   for (double rms : rms_px) deviations.push_back(std::abs(rms - median));
-  const double spread = 1.4826 * MedianOf(std::move(deviations));
+  const double spread = 1.4826 * UpperMedianOf(std::move(deviations));
   return {median, std::max({kGood_px, 3 * median, median + 6 * spread})};
 }
 
@@ -41,7 +41,7 @@ double MedianOf(const ResidualLists& residuals_px) {
   std::vector<double> distances;
   for (const auto& residuals : residuals_px)
     for (const Eigen::Vector2d& residual : residuals) distances.push_back(residual.norm());
-  return MedianOf(std::move(distances));
+  return UpperMedianOf(std::move(distances));
 }
 
 double RobustSigmaOf(const ResidualLists& residuals_px) {
