@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 #include <exception>
 #include <new>
@@ -48,6 +49,9 @@ articap::ExitCode Run(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   using articap::ExitCode;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
+  // What Ceres has to say of single steps is no concern of the user's: how a solution came out is in
+  // the reports.
+  FLAGS_minloglevel = google::GLOG_FATAL;
   ExitCode code = ExitCode::kNotUsable;
   try {
     code = Run(arguments);

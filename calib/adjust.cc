@@ -11,6 +11,7 @@
 #include "calib/camera_blocks.h"
 #include "calib/cost_functions/corner_cost.h"
 #include "calib/network.h"
+#include "calib/robust.h"
 #include "core/check.h"
 
 namespace articap {
@@ -184,9 +185,13 @@ AdjustedNetwork Adjust(const Network& network, const AdjustOptions& options) {
   adjusted.solve_s = summary.total_time_in_seconds;
   adjusted.residuals_px = ResidualsOf(adjusted.network);
   adjusted.degrees_of_freedom = summary.num_residuals - problem.num_free();
-  adjusted.sigma_px = std::sqrt(2 * summary.final_cost / std::max(1, adjusted.degrees_of_freedom));
+  HuberSums sums;
+  for (const auto& of_sighting : adjusted.residuals_px)
+    for (const Eigen::Vector2d& residual : of_sighting) sums.Add(residual.norm(), options.huber_px);
+  adjusted.sigma_px = sums.Sigma_px(adjusted.degrees_of_freedom);
   adjusted.parameters = problem.parameters();
-  adjusted.covariance = adjusted.sigma_px * adjusted.sigma_px * problem.Covariance();
+  adjusted.covariance =
+      adjusted.sigma_px * adjusted.sigma_px * sums.mean_weight() * problem.Covariance();
   FillSigmas(adjusted.parameters, adjusted.covariance, adjusted.network.array);
   return adjusted;
 }

@@ -25,6 +25,22 @@ std::vector<Eigen::Vector2d> ResidualsAlone(const BoardSpec& board, const Camera
   return Adjust(network, options).residuals_px[0];
 }
 
+// What no sighting shows was not estimated, and stands where it started: nothing is known of it.
+void ForgetUnseen(const Network& network, CameraArray& array) {
+  std::vector<bool> camera_seen(array.cameras.size(), false);
+  std::vector<bool> mirror_seen(array.mirrors.size(), false);
+  for (const NetworkSighting& sighting : network.sightings) {
+    camera_seen[sighting.view.camera] = true;
+    if (sighting.view.mirror >= 0) mirror_seen[sighting.view.mirror] = true;
+  }
+  for (std::size_t i = 0; i < camera_seen.size(); ++i)
+    if (!camera_seen[i]) array.cameras[i].sigmas = {};
+  for (std::size_t i = 0; i < mirror_seen.size(); ++i)
+    if (!mirror_seen[i])
+      array.mirrors[i].normal_sigma_rad = array.mirrors[i].distance_sigma_mm =
+          CameraSigmas::kUnknown;
+}
+
 }  // namespace
 
 double Calibration::rms_px() const {
@@ -40,6 +56,7 @@ Calibration MakeCalibration(const std::vector<CameraSightings>& inputs,
   const Network& network = adjusted.network;
   Calibration calibration;
   calibration.array = network.array;
+  ForgetUnseen(network, calibration.array);
   calibration.board = network.board;
   calibration.placements = network.placements;
   calibration.sigma_px = adjusted.sigma_px;

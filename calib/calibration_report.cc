@@ -150,8 +150,40 @@ void WarnOfFolds(const Calibration& calibration, StageReport& report) {
       }
 }
 
+// Views of which nothing is left, cameras and mirrors that nothing ties to the rest.
+std::string FaultOfLinks(const Calibration& calibration) {
+  const CameraArray& array = calibration.array;
+  for (const View& view : array.views())
+    if (std::isnan(RmsOfView_px(calibration, view)))
+      return fmt::format(
+          "{}: none of its sightings fits those of the others; see why each was set aside, and "
+          "record again, or leave it out",
+          array.NameOf(view));
+  for (const Camera& camera : array.cameras)
+    if (!camera.sigmas.rotation_rad.allFinite() || !camera.sigmas.translation_mm.allFinite())
+      return fmt::format(
+          "{}: where it stands cannot be told, as of the sightings that fit none links it with {}; "
+          "record the board where both see it",
+          camera.name, array.cameras.front().name);
+  for (const Mirror& mirror : array.mirrors)
+    if (!std::isfinite(mirror.normal_sigma_rad) || !std::isfinite(mirror.distance_sigma_mm))
+      return fmt::format(
+          "{}: where it stands cannot be told, as no sighting that fits shows the board beside it; "
+          "record the board where the camera sees it and its reflection",
+          mirror.name);
+  return {};
+}
+
 // The first thing that makes it unusable, with what to do; empty where nothing does.
 std::string FaultOf(const Calibration& calibration, const CalibrationLimits& limits) {
+  // With fewer the residuals do not tell their own standard deviation.
+  constexpr int kFewestFreedoms = 10;
+  if (calibration.degrees_of_freedom < kFewestFreedoms)
+    return fmt::format(
+        "the corners seen are only {} more coordinates than there are unknowns, so that nobody can "
+        "say how good the calibration is; record more views, with more corners in each",
+        calibration.degrees_of_freedom);
+  if (std::string fault = FaultOfLinks(calibration); !fault.empty()) return fault;
   if (!(calibration.rms_px() <= limits.max_rms_px))
     return fmt::format(
         "residuals of {:.2f} px, more than {:g}: is the board flat, are its numbers right, were "

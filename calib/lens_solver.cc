@@ -64,6 +64,14 @@ AdjustOptions OptionsFor(const LensFreedom& freedom, double huber_px, int max_it
   return options;
 }
 
+tl::unexpected<Error> NoPlane(const CameraSightings& input) {
+  return Fail(
+      fmt::format("{}: in none of the {} pictures do the corners make a plane; are the board's "
+                  "numbers right{}?",
+                  input.camera, input.sightings.size(),
+                  input.lens ? ", and is the lens that of this camera" : ""));
+}
+
 // A pinhole with a little radial distortion, from nothing: from the homographies' focal length, or,
 // where they are of no help, from the best of several guesses.
 Result<AdjustedNetwork> StartFromNothing(const BoardSpec& board, const CameraSightings& input) {
@@ -90,11 +98,7 @@ Result<AdjustedNetwork> StartFromNothing(const BoardSpec& board, const CameraSig
     if (!best || MedianOf(adjusted.residuals_px) < MedianOf(best->residuals_px))
       best = std::move(adjusted);
   }
-  if (!best)
-    return Fail(
-        fmt::format("{}: in none of the {} pictures do the corners make a plane; are the "
-                    "board's numbers right?",
-                    input.camera, input.sightings.size()));
+  if (!best) return NoPlane(input);
   return *std::move(best);
 }
 
@@ -107,16 +111,22 @@ void Simplify(SolvedLens& solved, const LensOptions& options) {
 }
 
 // The full model on the sightings that are kept, and which of them do not fit.
-AdjustedNetwork SolveFullModel(const BoardSpec& board, const CameraSightings& input,
-                               const Camera& start, const std::vector<int>& kept,
-                               const LensOptions& options) {
+Result<AdjustedNetwork> SolveFullModel(const BoardSpec& board, const CameraSightings& input,
+                                       const Camera& start, const std::vector<int>& kept,
+                                       const LensOptions& options) {
   const LensModel model = std::min(options.model, LensModel::kBrown5);
   const LensFreedom freedom = FreedomOf(model, options);
-  const Network network = PlaceSightings(board, input, start, kept);
+  // Coefficients that are not of the model are none, whatever the start has of them.
+  Camera from = start;
+  for (int i = 0; i < Lens::kNumDistortion; ++i)
+    if (!freedom.distortion[i]) from.lens.distortion[i] = 0;
+  const Network network = PlaceSightings(board, input, from, kept);
+  if (network.sightings.empty()) return NoPlane(input);
   const double first_huber_px = options.huber_sigmas == 0 ? 0 : 1;
   AdjustedNetwork adjusted = Adjust(network, OptionsFor(freedom, first_huber_px));
   // Now that the lens is known, a board may turn out to stand in its other pose.
   const Network again = PlaceSightings(board, input, adjusted.network.array.cameras[0], kept);
+  if (again.sightings.empty()) return NoPlane(input);
   return Adjust(again,
                 OptionsFor(freedom, HuberFor_px(adjusted.residuals_px, options.huber_sigmas)));
 }
@@ -134,25 +144,31 @@ Result<Camera> StartOf(const BoardSpec& board, const CameraSightings& camera) {
   return from_nothing->network.array.cameras[0];
 }
 
-// Solves, and sets aside what does not fit the rest, until everything does.
-LeftOutSightings SolveAndScreen(const BoardSpec& board, const CameraSightings& camera,
-                                const Camera& start, const LensOptions& options,
-                                AdjustedNetwork& adjusted) {
+// The full model before it is simplified: sets aside what does not fit the rest, until everything
+// does.
+Result<SolvedLens> SolveAndScreen(const BoardSpec& board, const CameraSightings& camera,
+                                  const Camera& start, const LensOptions& options) {
   constexpr int kMostRounds = 3;
-  LeftOutSightings set_aside;
+  SolvedLens solved;
+  solved.model = std::min(options.model, LensModel::kBrown5);
   Camera from = start;
   for (int round = 0;; ++round) {
     std::vector<int> kept;
     for (int index : AllSightings(camera))
-      if (!set_aside.contains({0, index})) kept.push_back(index);
-    adjusted = SolveFullModel(board, camera, from, kept, options);
-    if (!options.set_views_aside || round == kMostRounds) return set_aside;
-    const std::vector<BadSighting> bad = ScreenSightings(adjusted);
-    if (bad.empty()) return set_aside;
+      if (!solved.set_aside.contains({0, index})) kept.push_back(index);
+    Result<AdjustedNetwork> adjusted = SolveFullModel(board, camera, from, kept, options);
+    if (!adjusted) return tl::unexpected(adjusted.error());
+    solved.adjusted = *std::move(adjusted);
+    if (!options.set_views_aside || round == kMostRounds) break;
+    const std::vector<BadSighting> bad = ScreenSightings(solved.adjusted);
+    if (bad.empty()) break;
+    const Network& network = solved.adjusted.network;
     for (const BadSighting& sighting : bad)
-      set_aside[{0, adjusted.network.sightings[sighting.sighting].input}] = sighting.reason;
-    from = adjusted.network.array.cameras[0];
+      solved.set_aside[{0, network.sightings[sighting.sighting].input}] = sighting.reason;
+    from = network.array.cameras[0];
   }
+  SetAsideUnplaced({&camera, 1}, solved.adjusted.network, solved.set_aside);
+  return solved;
 }
 
 // Whether the lens still maps the whole picture one to one.
@@ -210,9 +226,9 @@ Result<SolvedLens> SolveLens(const BoardSpec& board, const CameraSightings& came
                              const LensOptions& options) {
   const Result<Camera> start = StartOf(board, camera);
   if (!start) return tl::unexpected(start.error());
-  SolvedLens solved;
-  solved.model = std::min(options.model, LensModel::kBrown5);
-  solved.set_aside = SolveAndScreen(board, camera, *start, options, solved.adjusted);
+  Result<SolvedLens> screened = SolveAndScreen(board, camera, *start, options);
+  if (!screened) return screened;
+  SolvedLens& solved = *screened;
   if (3 * solved.set_aside.size() > camera.sightings.size()) {
     const auto& [first, reason] = *solved.set_aside.begin();
     return Fail(fmt::format(
@@ -222,7 +238,7 @@ Result<SolvedLens> SolveLens(const BoardSpec& board, const CameraSightings& came
   }
   if (options.simplify) Simplify(solved, options);
   if (options.model == LensModel::kRational) TryRational(solved, options);
-  return solved;
+  return screened;
 }
 
 }  // namespace articap

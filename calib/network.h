@@ -91,7 +91,8 @@ struct AdjustedNetwork {
   double solve_s = 0;
   // seen - expected, px; one list a sighting, one entry a corner.
   std::vector<std::vector<Eigen::Vector2d>> residuals_px;
-  // Standard deviation of one coordinate of a corner: residuals over degrees of freedom.
+  // Standard deviation of one coordinate of a corner, without outliers (HuberSums); NaN where there
+  // are no degrees of freedom.
   double sigma_px = 0;
   int degrees_of_freedom = 0;
   // Of the cameras' free parameters, everything else being free too. Rotations are about the

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "calib/view_screening.h"
@@ -52,6 +53,19 @@ AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const Scr
       all.erase(all.begin() + sighting->sighting);
     }
   }
+}
+
+void SetAsideUnplaced(std::span<const CameraSightings> cameras, const Network& network,
+                      LeftOutSightings& set_aside) {
+  std::set<SightingKey> placed;
+  for (const NetworkSighting& sighting : network.sightings)
+    placed.insert({sighting.view.camera, sighting.input});
+  for (int camera = 0; camera < static_cast<int>(cameras.size()); ++camera)
+    for (int i = 0; i < static_cast<int>(cameras[camera].sightings.size()); ++i)
+      if (!placed.contains({camera, i}))
+        set_aside.try_emplace({camera, i},
+                              "no pose of the board explains its corners; are they too few, or on "
+                              "one line, or found wrong?");
 }
 
 }  // namespace articap

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "calib/calibration.h"
 #include "calib/network.h"
 
@@ -18,5 +20,9 @@ double HuberFor_px(const std::vector<std::vector<Eigen::Vector2d>>& residuals_px
 // sightings left out are added to `set_aside`.
 AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const ScreenOptions& options,
                                 LeftOutSightings& set_aside);
+
+// Sightings that did not even come into the network: no pose of the board explains their corners.
+void SetAsideUnplaced(std::span<const CameraSightings> cameras, const Network& network,
+                      LeftOutSightings& set_aside);
 
 }  // namespace articap

@@ -88,6 +88,8 @@ std::optional<double> FocalLengthOf_px(const BoardSpec& board, const std::vector
       in_board.emplace_back(corner.x(), corner.y());
       in_picture.emplace_back(point.x(), point.y());
     }
+    constexpr std::size_t kFewestCorners = 4;  // of a homography
+    if (in_board.size() < kFewestCorners) continue;
     const cv::Mat found = cv::findHomography(in_board, in_picture);
     if (found.empty()) continue;
     Eigen::Matrix3d h =

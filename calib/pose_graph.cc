@@ -10,15 +10,10 @@
 #include <utility>
 
 #include "calib/planar_pose.h"
+#include "calib/robust.h"
 
 namespace articap {
 namespace {
-
-// What a view may be off before the network is adjusted, px: lenses and poses are still rough, and
-// cameras may not quite be synchronous.
-double Rough_px(const Camera& camera) {
-  return std::max(6.0, 0.01 * std::max(camera.width, camera.height));
-}
 
 // The sightings of one instant.
 using Instants = std::map<int, std::vector<const PlacedSighting*>>;
@@ -58,11 +53,9 @@ PairPose JudgePair(const BoardSpec& board, const Camera& second,
   std::vector<double> rms_px;
   for (const SharedView& view : views) {
     rms_px.push_back(RmsOfPair_px(board, second, view, second_from_first));
-    if (rms_px.back() < Rough_px(second)) ++pose.good_views;
+    if (rms_px.back() < RoughTolerance_px(second)) ++pose.good_views;
   }
-  const auto middle = rms_px.begin() + static_cast<std::ptrdiff_t>(rms_px.size() / 2);
-  std::nth_element(rms_px.begin(), middle, rms_px.end());
-  pose.median_px = *middle;
+  pose.median_px = UpperMedianOf(std::move(rms_px));
   return pose;
 }
 

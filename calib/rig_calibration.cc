@@ -129,12 +129,12 @@ Result<StageResult<Calibration>> CalibrateRig(const BoardSpec& board,
   adjust.lenses = start->freedoms;
   adjust.free_time_offsets = options.free_time_offsets;
   LeftOutSightings set_aside = std::move(start->set_aside);
+  SetAsideUnplaced(cameras, *network, set_aside);
   AdjustedNetwork adjusted = AdjustAndScreen(
       *std::move(network), adjust, {options.huber_sigmas, options.set_views_aside}, set_aside);
-  if (lens_options.simplify) {
-    adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
+  adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
+  if (lens_options.simplify)
     adjusted = SimplifyLenses(std::move(adjusted), lens_options, adjust, start->models);
-  }
   Calibration calibration = MakeCalibration(cameras, adjusted, set_aside);
   if (!options.free_time_offsets)
     calibration.held_out = HeldOutRigidity(adjusted.network, adjust, adjusted.sigma_px);

@@ -5,19 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
-#include "core/check.h"
+#include "calib/robust.h"
 
 namespace articap {
 namespace {
-
-double Median(std::vector<double> values) {
-  ARTICAP_CHECK(!values.empty());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // The median of the distance of two Gaussian coordinates (Rayleigh's) over their sigma.
 const double kRayleighMedian = std::sqrt(2 * std::log(2.0));
@@ -25,13 +19,29 @@ const double kRayleighMedian = std::sqrt(2 * std::log(2.0));
 // No view is bad that fits so well, however well the others do.
 constexpr double kGood_px = 0.1;
 
+// A view with fewer sightings is judged by all views': its own median would be one of the bad.
+constexpr std::size_t kFewestOfView = 5;
+
+struct Usual {
+  double median_px = 0;
+  double limit_px = 0;
+};
+
+Usual UsualOf(const std::vector<double>& rms_px) {
+  const double median = UpperMedianOf(rms_px);
+  std::vector<double> deviations;
+  for (double rms : rms_px) deviations.push_back(std::abs(rms - median));
+  const double spread = 1.4826 * UpperMedianOf(std::move(deviations));
+  return {median, std::max({kGood_px, 3 * median, median + 6 * spread})};
+}
+
 }  // namespace
 
 double MedianOf(const ResidualLists& residuals_px) {
   std::vector<double> distances;
   for (const auto& residuals : residuals_px)
     for (const Eigen::Vector2d& residual : residuals) distances.push_back(residual.norm());
-  return Median(std::move(distances));
+  return UpperMedianOf(std::move(distances));
 }
 
 double RobustSigmaOf(const ResidualLists& residuals_px) {
@@ -39,21 +49,27 @@ double RobustSigmaOf(const ResidualLists& residuals_px) {
 }
 
 std::vector<BadSighting> ScreenSightings(const AdjustedNetwork& adjusted) {
-  std::vector<double> rms_px;
-  for (const auto& residuals : adjusted.residuals_px) rms_px.push_back(RmsOf(residuals));
-  const double median = Median(rms_px);
-  std::vector<double> deviations;
-  for (double rms : rms_px) deviations.push_back(std::abs(rms - median));
-  const double spread = 1.4826 * Median(std::move(deviations));
-  const double limit = std::max({kGood_px, 3 * median, median + 6 * spread});
+  const auto& sightings = adjusted.network.sightings;
   const double sigma_px = RobustSigmaOf(adjusted.residuals_px);
+  std::map<std::pair<int, int>, std::vector<double>> rms_of_views_px;
+  std::vector<double> all_px;
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    all_px.push_back(RmsOf(adjusted.residuals_px[i]));
+    rms_of_views_px[{sightings[i].view.camera, sightings[i].view.mirror}].push_back(all_px.back());
+  }
+  std::map<std::pair<int, int>, Usual> usual_of_views;
+  for (const auto& [view, rms_px] : rms_of_views_px)
+    usual_of_views[view] = UsualOf(rms_px.size() < kFewestOfView ? all_px : rms_px);
   std::vector<BadSighting> bad;
-  for (int i = 0; i < static_cast<int>(rms_px.size()); ++i)
-    if (!(rms_px[i] <= limit))
+  for (int i = 0; i < static_cast<int>(sightings.size()); ++i) {
+    const View& view = sightings[i].view;
+    const Usual& usual = usual_of_views.at({view.camera, view.mirror});
+    if (!(all_px[i] <= usual.limit_px))
       bad.push_back(
-          {i, fmt::format("{:.2f} px RMS where the others have {:.2f}: {}", rms_px[i], median,
-                          DisplacedCorners(adjusted.network.sightings[i].corners,
-                                           adjusted.residuals_px[i], sigma_px))});
+          {i, fmt::format(
+                  "{:.2f} px RMS where the others have {:.2f}: {}", all_px[i], usual.median_px,
+                  DisplacedCorners(sightings[i].corners, adjusted.residuals_px[i], sigma_px))});
+  }
   return bad;
 }
 

@@ -22,9 +22,9 @@ struct BadSighting {
   std::string reason;
 };
 
-// Sightings whose residuals are far above those of the others: the root mean square above three
-// times the median's and above the median by six deviations (1.4826 MAD). The reason names the
-// displaced corners.
+// Sightings whose residuals are far above those of their view's others, as a camera may be noisier
+// than the rest: the root mean square above three times the median's and above the median by six
+// deviations (1.4826 MAD). The reason names the displaced corners.
 std::vector<BadSighting> ScreenSightings(const AdjustedNetwork& adjusted);
 
 // "corner 12 by 3.4 px, corner 13 by 2.9 px and 4 more", of those more than six sigmas off.

@@ -66,6 +66,7 @@ std::optional<Eigen::Vector3d> Unproject(const Lens& lens, const Eigen::Vector2d
   constexpr double kNear = 1e-13;  // of the plane Z = 1: far below any pixel
   const Eigen::Vector2d distorted{(point_px.x() - lens.cx_px) / lens.fx_px,
                                   (point_px.y() - lens.cy_px) / lens.fy_px};
+  if (!distorted.allFinite()) return std::nullopt;
   // Newton's method, from where there is no distortion; steps that leave the unfolded part are
   // halved.
   Eigen::Vector2d point = Eigen::Vector2d::Zero();

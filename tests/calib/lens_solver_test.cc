@@ -5,7 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
 
 #include "calib/view_screening.h"
 #include "tests/calib/network_scene.h"
@@ -120,6 +124,100 @@ TEST(LensSolverTest, ViewsThatAreAllParallelDoNotTellTheFocalLength) {
   ASSERT_TRUE(lens) << lens.error().message;
   EXPECT_FALSE(lens->report.IsUsable());
   EXPECT_THAT(lens->report.verdict, HasSubstr("the views are too parallel"));
+}
+
+TEST(LensSolverTest, APinholeHasNoDistortion) {
+  NetworkScene scene = LensScene(9, 12);
+  LensOptions options;
+  options.model = LensModel::kPinhole;
+  const auto solved = SolveLens(scene.board, SeeBoards(scene, 0.1, 9)[0], options);
+  ASSERT_TRUE(solved) << solved.error().message;
+  for (double coefficient : solved->adjusted.network.array.cameras[0].lens.distortion)
+    EXPECT_EQ(coefficient, 0);
+}
+
+// One corner in twenty is anywhere within 8 px. Least squares over all of them would make the
+// sigmas three times as large as the errors are.
+TEST(LensSolverTest, OutliersDoNotMakeTheSigmasDishonest) {
+  LensOptions options;
+  options.simplify = false;
+  double normalized2 = 0;
+  int count = 0;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const NetworkScene scene = LensScene(seed, 20);
+    CameraSightings seen = SeeBoards(scene, 0.1, 70 + seed)[0];
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> away(-8, 8);
+    for (BoardSighting& sighting : seen.sightings)
+      for (Eigen::Vector2d& point : sighting.points_px)
+        if (random() % 20 == 0) point += Eigen::Vector2d{away(random), away(random)};
+    const auto solved = SolveLens(scene.board, seen, options);
+    ASSERT_TRUE(solved) << solved.error().message;
+    EXPECT_NEAR(solved->adjusted.sigma_px, 0.11, 0.02);
+    const Camera& found = solved->adjusted.network.array.cameras[0];
+    const Lens& truth = scene.array.cameras[0].lens;
+    for (const double sigmas : {(found.lens.fx_px - truth.fx_px) / found.sigmas.fx_px,
+                                (found.lens.cx_px - truth.cx_px) / found.sigmas.cx_px,
+                                (found.lens.cy_px - truth.cy_px) / found.sigmas.cy_px}) {
+      normalized2 += sigmas * sigmas;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(normalized2 / count, 1, 3 * std::sqrt(2.0 / count));
+}
+
+TEST(LensSolverTest, SightingsWithoutAPoseAreSetAsideByName) {
+  const NetworkScene scene = LensScene(10, 13);
+  CameraSightings seen = SeeBoards(scene, 0.1, 10)[0];
+  seen.sightings[2].points_px[7].x() = std::numeric_limits<double>::infinity();
+  for (const auto& [index, corners] : {std::pair{5, 9}, std::pair{8, 3}}) {  // on a line; too few
+    seen.sightings[index].corners.resize(corners);
+    seen.sightings[index].points_px.resize(corners);
+  }
+  const auto lens = CalibrateLens(scene.board, seen, {});
+  ASSERT_TRUE(lens) << lens.error().message;
+  EXPECT_TRUE(lens->report.IsUsable()) << lens->report.verdict;
+  ASSERT_EQ(lens->output.sightings.size(), seen.sightings.size());
+  for (int i = 0; i < static_cast<int>(seen.sightings.size()); ++i) {
+    const SightingResult& sighting = lens->output.sightings[i];
+    const bool bad = sighting.source == "002.png" || sighting.source == "005.png" ||
+                     sighting.source == "008.png";
+    EXPECT_EQ(sighting.used, !bad) << sighting.source;
+    if (bad) {
+      EXPECT_THAT(sighting.reason, HasSubstr("no pose of the board explains its corners"));
+    }
+  }
+}
+
+TEST(LensSolverTest, CornersFoundAnywhereMakeNoPlane) {
+  const NetworkScene scene = LensScene(11, 12);
+  CameraSightings seen = SeeBoards(scene, 0.1, 11)[0];
+  std::mt19937 random(11);
+  for (BoardSighting& sighting : seen.sightings)
+    std::shuffle(sighting.points_px.begin(), sighting.points_px.end(), random);
+  const auto lens = CalibrateLens(scene.board, seen, {});
+  EXPECT_TRUE(!lens || !lens->report.IsUsable());
+  seen.lens = Lens{100, 100, 320, 240, {-0.4}};
+  seen.sightings = SeeBoards(scene, 0.1, 11)[0].sightings;
+  const auto other = CalibrateLens(scene.board, seen, {});
+  ASSERT_FALSE(other);
+  EXPECT_THAT(other.error().message, HasSubstr("is the lens that of this camera"));
+}
+
+// Four corners in each of five pictures: the residuals are next to nothing, whatever the lens.
+TEST(LensSolverTest, HardlyMoreCornersThanUnknownsAreNotUsable) {
+  const NetworkScene scene = LensScene(12, 5);
+  CameraSightings seen = SeeBoards(scene, 0.1, 12)[0];
+  for (BoardSighting& sighting : seen.sightings) {
+    std::vector<Eigen::Vector2d> points;
+    for (int corner : {0, 8, 45, 53}) points.push_back(sighting.points_px[corner]);
+    sighting.points_px = points;
+    sighting.corners = {0, 8, 45, 53};
+  }
+  const auto lens = CalibrateLens(scene.board, seen, {});
+  ASSERT_TRUE(lens) << lens.error().message;
+  EXPECT_FALSE(lens->report.IsUsable());
+  EXPECT_THAT(lens->report.verdict, HasSubstr("more coordinates than there are unknowns"));
 }
 
 TEST(LensSolverTest, AFewPicturesAreNotEnough) {

@@ -197,6 +197,39 @@ TEST(RigCalibrationTest, BoardsThatLookTheSameUpsideDownAreRefused) {
   EXPECT_THAT(rig.error().message, HasSubstr("looks the same upside down"));
 }
 
+// Its residuals are five times the others': so are its views', and none of them is bad.
+TEST(RigCalibrationTest, ACameraThatIsNoisierThanTheOthersKeepsItsViews) {
+  const NetworkScene scene = RigScene(1, 4, 30);
+  std::vector<CameraSightings> seen = SeeBoards(scene, 0.1, 1);
+  seen[1] = SeeBoards(scene, 0.5, 2)[1];
+  const auto rig = CalibrateRig(scene.board, seen, {}, {});
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_TRUE(rig->report.IsUsable()) << rig->report.verdict;
+  for (const SightingResult& sighting : rig->output.sightings) EXPECT_TRUE(sighting.used);
+  EXPECT_GT(rig->output.array.cameras[1].sigmas.translation_mm.minCoeff(), 0);
+}
+
+// The one view that two cameras share is wrong, and set aside: nothing links them then.
+TEST(RigCalibrationTest, ACameraThatHangsOnAWrongViewIsNotUsable) {
+  const NetworkScene scene = RigScene(1, 2, 20);
+  std::vector<CameraSightings> seen = SeeBoards(scene, 0.1, 1);
+  for (std::size_t i = 0; i < seen.size(); ++i) seen[i].lens = scene.array.cameras[i].lens;
+  for (BoardSighting& sighting : seen[1].sightings) sighting.frame += 1000;
+  BoardSighting& shared = seen[1].sightings[0];
+  shared.frame = seen[0].sightings[10].frame;
+  RigOptions held;
+  held.adjust_lenses = false;
+  const auto rig = CalibrateRig(scene.board, seen, {}, held);
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_TRUE(rig->report.IsUsable()) << "one shared view is just enough";
+  for (std::size_t i = 0; i < shared.points_px.size(); ++i)
+    shared.points_px[i].y() += i % 2 == 0 ? 3 : -3;
+  const auto wrong = CalibrateRig(scene.board, seen, {}, held);
+  ASSERT_TRUE(wrong) << wrong.error().message;
+  EXPECT_FALSE(wrong->report.IsUsable());
+  EXPECT_THAT(wrong->report.verdict, HasSubstr("cam1: where it stands cannot be told"));
+}
+
 TEST(RigCalibrationTest, ACameraWithoutViewsIsNamed) {
   const NetworkScene scene = RigScene(5, 2, 12);
   std::vector<CameraSightings> seen = SeeBoards(scene, 0.1, 5);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace articap {
@@ -106,6 +107,15 @@ TEST(CameraTest, GlassBeforeTheMirrorBendsRaysAsSnellSays) {
   EXPECT_LT(miss_mm, 1e-6);
   const auto without_glass = Project(MirrorSetUp(0), {0, 0}, point);
   EXPECT_GT((*pixel - *without_glass).norm(), 3) << "5 mm of glass are no trifle";
+}
+
+TEST(CameraTest, PixelsThatAreNoNumbersLookNowhere) {
+  const Lens lens = {1000, 1000, 640, 360, {-0.1}};
+  for (const double bad : {std::numeric_limits<double>::infinity(),
+                           -std::numeric_limits<double>::infinity(), CameraSigmas::kUnknown}) {
+    EXPECT_FALSE(Unproject(lens, {bad, 100}));
+    EXPECT_FALSE(Unproject(lens, {100, bad}));
+  }
 }
 
 }  // namespace

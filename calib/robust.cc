@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "calib/robust.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/check.h"
+
+namespace articap {
+
+double UpperMedianOf(std::vector<double> values) {
+  ARTICAP_CHECK(!values.empty());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double RoughTolerance_px(const Camera& camera) {
+  return std::max(6.0, 0.01 * std::max(camera.width, camera.height));
+}
+
+void HuberSums::Add(double distance_px, double huber_px) {
+  const double weight = huber_px > 0 && distance_px > huber_px ? huber_px / distance_px : 1;
+  squares_px2 += std::pow(weight * distance_px, 2);
+  weights += weight;
+  ++count;
+}
+
+double HuberSums::Sigma_px(int degrees_of_freedom) const {
+  if (degrees_of_freedom <= 0) return NAN;
+  return std::sqrt(squares_px2 / degrees_of_freedom) / mean_weight();
+}
+
+}  // namespace articap

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "core/camera.h"
+
+namespace articap {
+
+// The median (of an even number the upper one); there must be values.
+double UpperMedianOf(std::vector<double> values);
+
+// What a view may be off before everything is adjusted, px: lenses and poses are still rough, and
+// cameras may not quite be synchronous.
+double RoughTolerance_px(const Camera& camera);
+
+// What Huber's loss makes of residuals: psi(r) = min(r, k) for a distance r, its weight psi(r) / r.
+struct HuberSums {
+  double squares_px2 = 0;  // of psi
+  double weights = 0;
+  int count = 0;
+
+  // k = 0: plain least squares.
+  void Add(double distance_px, double huber_px);
+  double mean_weight() const { return count > 0 ? weights / count : 1; }
+  // Standard deviation of one coordinate without the outliers: that of psi, over the mean slope of
+  // psi. NaN where there are no degrees of freedom. With it, sigma^2 mean_weight (J' W J)^-1 is the
+  // covariance of what was estimated.
+  // P. J. Huber, "Robust Statistics", 1981, section 7.6.
+  double Sigma_px(int degrees_of_freedom) const;
+};
+
+}  // namespace articap
