@@ -4,26 +4,29 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <set>
 #include <utility>
 
 namespace articap {
-namespace {
-
-// Between pictures that follow one another.
-double UsualInterval_s(const std::vector<SessionTime>& times) {
+double UsualInterval_s(std::vector<SessionTime> times) {
+  std::sort(times.begin(), times.end());
   std::vector<double> intervals_s;
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double interval_s = SecondsOf(times[i]) - SecondsOf(times[i - 1]);
     if (interval_s > 0) intervals_s.push_back(interval_s);
   }
   if (intervals_s.empty()) return 1;
-  const auto middle = intervals_s.begin() + static_cast<std::ptrdiff_t>(intervals_s.size() / 2);
-  std::nth_element(intervals_s.begin(), middle, intervals_s.end());
-  return *middle;
+  // Where every other picture is lost, the median is two intervals; the quartile is one still.
+  const auto quartile = intervals_s.begin() + static_cast<std::ptrdiff_t>(intervals_s.size() / 4);
+  std::nth_element(intervals_s.begin(), quartile, intervals_s.end());
+  const double about_s = *quartile;
+  std::erase_if(intervals_s, [&](double interval_s) {
+    return interval_s < 0.5 * about_s || interval_s > 1.5 * about_s;
+  });
+  return std::accumulate(intervals_s.begin(), intervals_s.end(), 0.0) /
+         static_cast<double>(intervals_s.size());
 }
-
-}  // namespace
 
 InstantTable InstantsByFrame(const std::vector<CameraSightings>& cameras) {
   std::set<std::int64_t> frames;

@@ -16,6 +16,10 @@ struct Instant {
 // Sightings without an instant are not used.
 using InstantTable = std::map<SightingKey, Instant>;
 
+// Between pictures that follow one another, s; lost ones, and times that waver or are rounded, do
+// not matter. 1 where there are not two.
+double UsualInterval_s(std::vector<SessionTime> times);
+
 // Sightings with the same frame number show the same instant.
 InstantTable InstantsByFrame(const std::vector<CameraSightings>& cameras);
 

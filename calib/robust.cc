@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/check.h"
 
@@ -16,14 +17,19 @@ double UpperMedianOf(std::vector<double> values) {
   return *middle;
 }
 
+double RobustSigmaOf(std::vector<double> distances_px) {
+  // The median of Rayleigh's distribution over its sigma.
+  return UpperMedianOf(std::move(distances_px)) / std::sqrt(2 * std::log(2.0));
+}
+
 double RoughTolerance_px(const Camera& camera) {
   return std::max(6.0, 0.01 * std::max(camera.width, camera.height));
 }
 
 void HuberSums::Add(double distance_px, double huber_px) {
-  const double weight = huber_px > 0 && distance_px > huber_px ? huber_px / distance_px : 1;
-  squares_px2 += std::pow(weight * distance_px, 2);
-  weights += weight;
+  const double psi = huber_px > 0 ? std::min(distance_px, huber_px) : distance_px;
+  squares_px2 += psi * psi;
+  weights += distance_px > 0 ? psi / distance_px : 1;
   ++count;
 }
 

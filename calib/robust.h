@@ -10,6 +10,10 @@ namespace articap {
 // The median (of an even number the upper one); there must be values.
 double UpperMedianOf(std::vector<double> values);
 
+// Standard deviation of one coordinate of two-dimensional Gaussian errors, from the median of their
+// distances: outliers do not touch it.
+double RobustSigmaOf(std::vector<double> distances_px);
+
 // What a view may be off before everything is adjusted, px: lenses and poses are still rough, and
 // cameras may not quite be synchronous.
 double RoughTolerance_px(const Camera& camera);

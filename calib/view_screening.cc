@@ -13,9 +13,6 @@
 namespace articap {
 namespace {
 
-// The median of the distance of two Gaussian coordinates (Rayleigh's) over their sigma.
-const double kRayleighMedian = std::sqrt(2 * std::log(2.0));
-
 // No view is bad that fits so well, however well the others do.
 constexpr double kGood_px = 0.1;
 
@@ -35,17 +32,21 @@ Usual UsualOf(const std::vector<double>& rms_px) {
   return {median, std::max({kGood_px, 3 * median, median + 6 * spread})};
 }
 
-}  // namespace
-
-double MedianOf(const ResidualLists& residuals_px) {
+std::vector<double> DistancesOf(const ResidualLists& residuals_px) {
   std::vector<double> distances;
   for (const auto& residuals : residuals_px)
     for (const Eigen::Vector2d& residual : residuals) distances.push_back(residual.norm());
-  return UpperMedianOf(std::move(distances));
+  return distances;
+}
+
+}  // namespace
+
+double MedianOf(const ResidualLists& residuals_px) {
+  return UpperMedianOf(DistancesOf(residuals_px));
 }
 
 double RobustSigmaOf(const ResidualLists& residuals_px) {
-  return MedianOf(residuals_px) / kRayleighMedian;
+  return RobustSigmaOf(DistancesOf(residuals_px));
 }
 
 std::vector<BadSighting> ScreenSightings(const AdjustedNetwork& adjusted) {

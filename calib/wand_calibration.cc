@@ -10,7 +10,8 @@
 #include <numeric>
 #include <utility>
 
-#include "calib/epipolar.h"
+#include "calib/instants.h"
+#include "calib/robust.h"
 #include "calib/wand_network.h"
 #include "calib/wand_start.h"
 #include "core/triangulation.h"
@@ -54,13 +55,11 @@ AdjustOptions OptionsFor(const std::vector<WandVideo>& videos, const WandOptions
   return adjust;
 }
 
-double MedianResidual_px(const AdjustedWand& adjusted) {
-  std::vector<double> distances;
+double MarkerSigma_px(const AdjustedWand& adjusted) {
+  std::vector<double> distances_px;
   for (const auto& ends : adjusted.residuals_px)
-    for (const Eigen::Vector2d& residual : ends) distances.push_back(residual.norm());
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+    for (const Eigen::Vector2d& residual : ends) distances_px.push_back(residual.norm());
+  return RobustSigmaOf(std::move(distances_px));
 }
 
 // Pictures whose markers are far from where they should be: reflections, other blobs.
@@ -75,16 +74,21 @@ void RemoveOutliers(const AdjustedWand& adjusted, double limit_px, WandNetwork& 
 
 // The motion that the time offsets act on comes from where an adjustment starts: a few rounds, with
 // weights and outliers by the last one's residuals.
-AdjustedWand AdjustInRounds(WandNetwork network, AdjustOptions adjust, const WandOptions& options) {
+Result<AdjustedWand> AdjustInRounds(WandNetwork network, AdjustOptions adjust,
+                                    const WandOptions& options) {
   constexpr int kRounds = 6;
+  constexpr int kFirstToRemove = 2;  // before that the residuals are those of the start
   AdjustedWand adjusted;
   for (int round = 0; round < kRounds; ++round) {
+    if (network.sightings.empty())
+      return Fail(
+          "the cameras' views of the wand meet nowhere with its length; is the length right, are "
+          "the bright spots its markers, were all cameras recording at the same time?");
     adjusted = AdjustWand(network, adjust);
     network = adjusted.network;
-    // The median distance of two Gaussian coordinates is 1.177 sigmas.
-    network.sigma_px = std::max(1e-3, MedianResidual_px(adjusted) / 1.177);
+    network.sigma_px = std::max(1e-3, MarkerSigma_px(adjusted));
     adjust.huber_px = options.huber_sigmas * network.sigma_px;
-    if (round == 2) {
+    if (round >= kFirstToRemove && round + 1 < kRounds) {
       RemoveOutliers(adjusted, std::max(0.5, 10 * network.sigma_px), network);
       KeepSharedInstants(network);
     }
@@ -140,6 +144,40 @@ WandCalibration Summarize(const AdjustedWand& adjusted) {
   return result;
 }
 
+// Groups the pictures by the clocks as they are.
+Result<WandCalibration> CalibrateOnce(const std::vector<WandVideo>& videos,
+                                      const WandOptions& options) {
+  Result<WandNetwork> start = StartWandNetwork(videos, options.length_mm);
+  if (!start) return tl::unexpected(start.error());
+  start->length_sigma_mm = options.length_sigma_mm;
+  const Result<AdjustedWand> adjusted =
+      AdjustInRounds(*std::move(start), OptionsFor(videos, options), options);
+  if (!adjusted) return tl::unexpected(adjusted.error());
+  return Summarize(*adjusted);
+}
+
+std::vector<SessionTime> TimesOf(const WandVideo& video) {
+  std::vector<SessionTime> times;
+  for (const WandPicture& picture : video.pictures) times.push_back(picture.time);
+  return times;
+}
+
+double LargestOffset_s(const CameraArray& array) {
+  double largest_s = 0;
+  for (const Camera& camera : array.cameras)
+    largest_s = std::max(largest_s, std::abs(camera.time_offset_s));
+  return largest_s;
+}
+
+// The videos with their clocks set by the offsets found.
+std::vector<WandVideo> WithOffsets(std::vector<WandVideo> videos, const CameraArray& array) {
+  for (std::size_t camera = 0; camera < videos.size(); ++camera)
+    for (WandPicture& picture : videos[camera].pictures)
+      picture.time =
+          SessionTimeFromSeconds(SecondsOf(picture.time) + array.cameras[camera].time_offset_s);
+  return videos;
+}
+
 StageReport Describe(const WandCalibration& wand, const WandOptions& options) {
   StageReport report;
   report.stage = "calibrate wand";
@@ -181,7 +219,7 @@ StageReport Describe(const WandCalibration& wand, const WandOptions& options) {
 void VisitOptions(WandOptions& options, OptionVisitor& visit) {
   visit("length_mm", options.length_mm, "between the centres of the wand's two markers; mm");
   visit("length_sigma_mm", options.length_sigma_mm,
-        "standard deviation of that length while the wand is waved; mm");
+        "standard deviation of that length, as measured and while the wand is waved; mm");
   visit("adjust_focal", options.adjust_focal, "the focal lengths are only roughly known");
   visit("adjust_radial", options.adjust_radial,
         "the radial distortion (k1, k2) is only roughly known");
@@ -197,14 +235,20 @@ Result<StageResult<WandCalibration>> CalibrateWand(const std::vector<WandVideo>&
                                                    const WandOptions& options) {
   if (const auto usable = RefuseUnusable(videos, options); !usable)
     return tl::unexpected(usable.error());
-  Result<WandNetwork> start = StartWandNetwork(videos, options.length_mm);
-  if (!start) return tl::unexpected(start.error());
-  start->length_sigma_mm = options.length_sigma_mm;
-  const AdjustedWand adjusted =
-      AdjustInRounds(*std::move(start), OptionsFor(videos, options), options);
-  WandCalibration wand = Summarize(adjusted);
-  StageReport report = Describe(wand, options);
-  return StageResult<WandCalibration>{std::move(wand), std::move(report)};
+  Result<WandCalibration> wand = CalibrateOnce(videos, options);
+  if (!wand) return tl::unexpected(wand.error());
+  // Clocks that are off by more than half an interval put pictures to the instants beside theirs.
+  constexpr int kMostRegroupings = 4;
+  for (int i = 0; i < kMostRegroupings; ++i) {
+    if (LargestOffset_s(wand->array) < UsualInterval_s(TimesOf(videos[0])) / 2) break;
+    Result<WandCalibration> again = CalibrateOnce(WithOffsets(videos, wand->array), options);
+    if (!again || !(again->rms_px < wand->rms_px)) break;
+    for (std::size_t camera = 0; camera < videos.size(); ++camera)
+      again->array.cameras[camera].time_offset_s += wand->array.cameras[camera].time_offset_s;
+    wand = std::move(again);
+  }
+  StageReport report = Describe(*wand, options);
+  return StageResult<WandCalibration>{*std::move(wand), std::move(report)};
 }
 
 }  // namespace articap

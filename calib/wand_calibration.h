@@ -29,8 +29,10 @@ struct WandVideo {
 };
 
 struct WandOptions {
-  double length_mm = 0;           // between the centres of the wand's two markers
-  double length_sigma_mm = 0.02;  // how well that is known to be the same all the time
+  double length_mm = 0;  // between the centres of the wand's two markers
+  // How well that is known. It is taken for an error common to all instants, which is a scale of
+  // the array in the cameras' sigmas, and for as much again from one instant to the next.
+  double length_sigma_mm = 0.02;
   bool adjust_focal = false;      // the focal lengths are only roughly known
   bool adjust_radial = false;     // so is the radial distortion, k1 and k2
   bool free_time_offsets = true;  // the cameras are not synchronous

@@ -9,6 +9,7 @@
 
 #include "calib/camera_blocks.h"
 #include "calib/cost_functions/corner_cost.h"
+#include "calib/robust.h"
 
 namespace articap {
 namespace {
@@ -92,6 +93,7 @@ class WandProblem {
   }
 
   const std::vector<CameraParameter>& parameters() const { return cameras_.parameters(); }
+  int num_free() const { return static_cast<int>(cameras_.parameters().size() + 6 * seen_.size()); }
 
  private:
   void AddSighting(const WandSighting& sighting, const std::vector<double>& times_s) {
@@ -131,6 +133,32 @@ std::vector<std::array<Eigen::Vector2d, 2>> ResidualsOf(const WandNetwork& netwo
   return residuals;
 }
 
+// Of the ends and, in the same unit, of the lengths.
+HuberSums SumsOf(const AdjustedWand& adjusted, double huber_px) {
+  HuberSums sums;
+  for (const auto& ends : adjusted.residuals_px)
+    for (const Eigen::Vector2d& residual : ends) sums.Add(residual.norm(), huber_px);
+  const WandNetwork& network = adjusted.network;
+  for (const WandInstant& instant : network.instants)
+    sums.Add(std::abs((instant.ends_mm[0] - instant.ends_mm[1]).norm() - network.length_mm) *
+                 network.sigma_px / network.length_sigma_mm,
+             0);
+  return sums;
+}
+
+// A length that is wrong is so at every instant: all distances from the first camera, which is the
+// stage's origin, grow by the same part, and no residual shows it.
+void AddScaleError(const WandNetwork& network, const std::vector<CameraParameter>& parameters,
+                   Eigen::MatrixXd& covariance) {
+  Eigen::VectorXd by_scale = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+  for (int i = 0; i < by_scale.size(); ++i)
+    if (parameters[i].kind == CameraParameter::Kind::kTranslation)
+      by_scale(i) = network.array.cameras[parameters[i].index]
+                        .cam_from_stage.translation_mm[parameters[i].component];
+  const double scale_sigma = network.length_sigma_mm / network.length_mm;
+  covariance += scale_sigma * scale_sigma * by_scale * by_scale.transpose();
+}
+
 }  // namespace
 
 std::array<Eigen::Vector3d, 2> EndsAfter(const WandNetwork& network, int instant, double after_s) {
@@ -148,10 +176,12 @@ AdjustedWand AdjustWand(const WandNetwork& network, const AdjustOptions& options
   adjusted.network = problem.Solution();
   adjusted.converged = summary.termination_type == ceres::CONVERGENCE;
   adjusted.residuals_px = ResidualsOf(adjusted.network);
-  const int free = static_cast<int>(problem.parameters().size() + 6 * network.instants.size());
-  adjusted.sigma_px = std::sqrt(2 * summary.final_cost / std::max(1, summary.num_residuals - free));
+  const HuberSums sums = SumsOf(adjusted, options.huber_px);
+  adjusted.sigma_px = sums.Sigma_px(summary.num_residuals - problem.num_free());
   adjusted.parameters = problem.parameters();
-  adjusted.covariance = adjusted.sigma_px * adjusted.sigma_px * problem.Covariance();
+  adjusted.covariance =
+      adjusted.sigma_px * adjusted.sigma_px * sums.mean_weight() * problem.Covariance();
+  AddScaleError(adjusted.network, adjusted.parameters, adjusted.covariance);
   FillSigmas(adjusted.parameters, adjusted.covariance, adjusted.network.array);
   return adjusted;
 }

@@ -30,6 +30,7 @@ struct WandNetwork {
   std::vector<WandInstant> instants;
   std::vector<WandSighting> sightings;
   double length_mm = 0;
+  // How far it may be off: all the time alike, and from one instant to the next.
   double length_sigma_mm = 0;
   double sigma_px = 0.1;  // of one coordinate of a marker, to weigh pixels against the length
 };
@@ -37,7 +38,7 @@ struct WandNetwork {
 struct AdjustedWand {
   WandNetwork network;
   bool converged = false;
-  double sigma_px = 0;
+  double sigma_px = 0;  // of one coordinate of a marker, without outliers (HuberSums)
   std::vector<CameraParameter> parameters;
   Eigen::MatrixXd covariance;
   // seen - expected, px; the two ends of each sighting.

@@ -11,6 +11,7 @@
 
 #include "calib/epipolar.h"
 #include "calib/instants.h"
+#include "calib/robust.h"
 #include "core/triangulation.h"
 
 namespace articap {
@@ -23,6 +24,7 @@ struct TimedPictures {
   InstantPictures pictures;
 };
 
+// Of the pictures with two markers; of a camera that takes several in one interval the nearest.
 std::vector<TimedPictures> GroupByInstant(const std::vector<WandVideo>& videos) {
   std::vector<std::vector<SessionTime>> times;
   std::vector<std::vector<int>> pictures;
@@ -39,7 +41,12 @@ std::vector<TimedPictures> GroupByInstant(const std::vector<WandVideo>& videos) 
   for (const auto& [key, instant] : InstantsByTime(times)) {
     TimedPictures& at = instants[instant.number];
     at.time_s = instant.time_s;
-    at.pictures.try_emplace(key.camera, pictures[key.camera][key.sighting]);
+    const std::vector<WandPicture>& of_camera = videos[key.camera].pictures;
+    const int picture = pictures[key.camera][key.sighting];
+    const auto kept = at.pictures.try_emplace(key.camera, picture).first;
+    if (std::abs(SecondsOf(of_camera[picture].time) - at.time_s) <
+        std::abs(SecondsOf(of_camera[kept->second].time) - at.time_s))
+      kept->second = picture;
   }
   std::vector<TimedPictures> shared;
   for (auto& [number, at] : instants)
@@ -151,9 +158,7 @@ class WandStart {
                          (ends[0]->point_in_stage_mm - ends[1]->point_in_stage_mm).norm());
     }
     if (scales.empty()) return std::nullopt;
-    const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
-    std::nth_element(scales.begin(), middle, scales.end());
-    return *middle;
+    return UpperMedianOf(std::move(scales));
   }
 
   Result<void> PlaceCameras() {

@@ -127,6 +127,31 @@ TEST(MirrorCalibrationTest, TwoMirrorsAreToldApart) {
     ExpectSameMirror(mirrors[swapped ? 1 - i : i], scene.array.mirrors[i], 0.002, 1.0);
 }
 
+TEST(MirrorCalibrationTest, PicturesOfTheMirrorAloneAreUsedToo) {
+  const NetworkScene scene = MirrorScene(4, 16);
+  CameraSightings seen = SeeBoards(scene, 0.1, 3)[0];
+  std::erase_if(seen.sightings, [](const BoardSighting& sighting) {
+    return !sighting.mirrored && sighting.frame % 2 == 1;
+  });
+  const auto found = CalibrateMirror(scene.board, seen, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_TRUE(found->report.IsUsable()) << found->report.verdict;
+  for (const SightingResult& sighting : found->output.sightings)
+    EXPECT_TRUE(sighting.used) << sighting.reason;
+}
+
+TEST(MirrorCalibrationTest, MirrorsThatCannotBeAreRefused) {
+  const NetworkScene scene = MirrorScene(4, 8);
+  const CameraSightings seen = SeeBoards(scene, 0.1, 3)[0];
+  const auto none = CalibrateMirror(scene.board, seen, {}, {.mirrors = 0});
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("mirrors is 0"));
+  const auto thin = CalibrateMirror(scene.board, seen, {}, {.glass_mm = -3});
+  ASSERT_FALSE(thin);
+  EXPECT_THAT(thin.error().message, HasSubstr("glass_mm"));
+  EXPECT_FALSE(CalibrateMirror(scene.board, seen, {}, {.glass_mm = 3, .glass_index = 0.5}));
+}
+
 TEST(MirrorCalibrationTest, AMirrorThatShowsOnlyItselfIsRefused) {
   const NetworkScene scene = MirrorScene(1, 10);
   CameraSightings seen = SeeBoards(scene, 0.1, 1)[0];

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include "tests/calib/wand_scene.h"
 
@@ -73,6 +76,80 @@ TEST(WandCalibrationTest, FocalLengthsThatAreRoughlyKnownAreFound) {
     EXPECT_NEAR(found.lens.fx_px, scene.array.cameras[i].lens.fx_px,
                 std::max(0.5, 4 * found.sigmas.fx_px));
   }
+}
+
+// The cameras of a scene of which everything else is as before are found within their sigmas.
+void ExpectCamerasWithinSigmas(const WandScene& scene) {
+  WandOptions options;
+  options.length_mm = kWandLength_mm;
+  const auto wand = CalibrateWand(scene.videos, options);
+  ASSERT_TRUE(wand) << wand.error().message;
+  EXPECT_TRUE(wand->report.IsUsable()) << wand->report.BriefReport();
+  EXPECT_NEAR(wand->output.sigma_px, 0.1, 0.015);
+  for (std::size_t i = 1; i < scene.array.cameras.size(); ++i) {
+    const Camera& found = wand->output.array.cameras[i];
+    const Camera& truth = scene.array.cameras[i];
+    EXPECT_NEAR(found.time_offset_s, truth.time_offset_s, 5 * found.sigmas.time_offset_s) << i;
+    EXPECT_LT((found.cam_from_stage.translation_mm - truth.cam_from_stage.translation_mm).norm(),
+              4 * found.sigmas.translation_mm.norm())
+        << i;
+  }
+}
+
+TEST(WandCalibrationTest, ClocksMayBeOffByMoreThanHalfAFrame) {
+  WandScene scene = WaveWand(3, 300, 0.1, 7);
+  for (const auto& [camera, frames] : {std::pair{1, 0.9}, std::pair{2, -0.8}}) {
+    double& offset_s = scene.array.cameras[camera].time_offset_s;
+    for (WandPicture& picture : scene.videos[camera].pictures)
+      picture.time =
+          SessionTimeFromSeconds(SecondsOf(picture.time) + offset_s - frames / kWandRate_hz);
+    offset_s = frames / kWandRate_hz;
+  }
+  ExpectCamerasWithinSigmas(scene);
+}
+
+TEST(WandCalibrationTest, CamerasMayLosePicturesOrTakeFewer) {
+  WandScene scene = WaveWand(3, 500, 0.1, 8);
+  std::mt19937 random(8);
+  for (WandVideo& video : scene.videos)
+    std::erase_if(video.pictures, [&](const WandPicture&) { return random() % 5 < 2; });
+  ExpectCamerasWithinSigmas(scene);
+  // The first camera takes half as many as the others.
+  scene = WaveWand(3, 500, 0.1, 9);
+  auto& slow = scene.videos[0].pictures;
+  for (std::size_t i = 0; 2 * i < slow.size(); ++i) slow[i] = slow[2 * i];
+  slow.resize(slow.size() / 2);
+  ExpectCamerasWithinSigmas(scene);
+}
+
+// A wand that is longer than was said makes everything look smaller, and no residual shows it.
+TEST(WandCalibrationTest, SigmasHoldTheErrorOfTheLength) {
+  constexpr double kSigma_mm = 0.5;
+  const WandScene scene = WaveWand(3, 300, 0.1, 10);
+  WandOptions options;
+  options.length_mm = kWandLength_mm - kSigma_mm;
+  options.length_sigma_mm = kSigma_mm;
+  const auto wand = CalibrateWand(scene.videos, options);
+  ASSERT_TRUE(wand) << wand.error().message;
+  for (int i : {1, 2}) {
+    const Camera& found = wand->output.array.cameras[i];
+    const double baseline_mm = scene.array.cameras[i].cam_from_stage.translation_mm.norm();
+    const double error_mm = baseline_mm - found.cam_from_stage.translation_mm.norm();
+    EXPECT_NEAR(error_mm, baseline_mm * kSigma_mm / kWandLength_mm, 0.3);
+    EXPECT_NEAR(found.sigmas.translation_mm.norm(), error_mm, 0.3 * error_mm);
+  }
+}
+
+TEST(WandCalibrationTest, MarkersThatAreNoWandAreRefused) {
+  WandScene scene = WaveWand(4, 400, 0.1, 1);
+  for (WandVideo& video : scene.videos)
+    for (WandPicture& picture : video.pictures) picture.points_px[1] = picture.points_px[0];
+  WandOptions options;
+  options.length_mm = kWandLength_mm;
+  const auto wand = CalibrateWand(scene.videos, options);
+  ASSERT_FALSE(wand);
+  EXPECT_THAT(wand.error().message,
+              testing::AnyOf(HasSubstr("is the length right"), HasSubstr("cannot be linked")));
 }
 
 TEST(WandCalibrationTest, ACameraThatSeesNoWandIsNamed) {
