@@ -16,9 +16,10 @@
 namespace articap {
 namespace {
 
-// Where the parameters of a camera's pose begin in the covariance: rotation, then translation.
-std::optional<int> PoseColumn(const std::vector<CameraParameter>& parameters, int camera) {
-  const CameraParameter first = {CameraParameter::Kind::kRotation, camera, 0};
+// Where the parameters of a camera's pose (rotation, then translation) or of a mirror begin in the
+// covariance.
+std::optional<int> ColumnOf(const std::vector<CameraParameter>& parameters,
+                            const CameraParameter& first) {
   const auto found = std::find(parameters.begin(), parameters.end(), first);
   if (found == parameters.end()) return std::nullopt;
   return static_cast<int>(found - parameters.begin());
@@ -33,6 +34,16 @@ Eigen::Vector3d TranslationSigmas(const Eigen::Matrix<double, 6, 6>& covariance,
       -a.z(), 0, a.x(), 0, 1, 0,         //
       a.y(), -a.x(), 0, 0, 0, 1;
   return (by_pose * covariance * by_pose.transpose()).diagonal().cwiseSqrt();
+}
+
+// The distance of a plane from the new origin p, both in the camera frame, is |f| - n . p for its
+// foot f = |f| n: by the foot, n - (p - n (n . p)) / |f|. The camera that looks into it is held.
+double DistanceSigma(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& foot,
+                     const Eigen::Vector3d& new_origin_in_cam) {
+  const Eigen::Vector3d normal = foot.normalized();
+  const Eigen::Vector3d across = new_origin_in_cam - normal * normal.dot(new_origin_in_cam);
+  const Eigen::Vector3d by_foot = normal - across / foot.norm();
+  return std::sqrt(by_foot.dot(covariance * by_foot));
 }
 
 using Points3 = std::array<Eigen::Vector3d, 3>;
@@ -94,18 +105,27 @@ Result<Solid> MatchMarkers(const CameraArray& array,
 void MoveStage(const std::vector<CameraParameter>& parameters, const Eigen::MatrixXd& covariance,
                const Rigid3d& new_from_old, CameraArray& array) {
   const Rigid3d old_from_new = new_from_old.Inverse();
+  for (int i = 0; i < static_cast<int>(array.mirrors.size()); ++i) {
+    Mirror& mirror = array.mirrors[i];
+    const Rigid3d& cam_from_old = array.cameras[mirror.camera].cam_from_stage;
+    if (const auto column = ColumnOf(parameters, {CameraParameter::Kind::kMirror, i, 0})) {
+      const Eigen::Vector3d normal = cam_from_old.rotation * mirror.normal_in_stage;
+      const Eigen::Vector3d foot =
+          normal * (mirror.distance_mm + normal.dot(cam_from_old.translation_mm));
+      mirror.distance_sigma_mm = DistanceSigma(covariance.block<3, 3>(*column, *column), foot,
+                                               cam_from_old * old_from_new.translation_mm);
+    }
+    // n . x = d for x = old_from_new * x'.
+    mirror.distance_mm -= mirror.normal_in_stage.dot(old_from_new.translation_mm);
+    mirror.normal_in_stage = new_from_old.rotation * mirror.normal_in_stage;
+  }
   for (int i = 0; i < static_cast<int>(array.cameras.size()); ++i) {
     Camera& camera = array.cameras[i];
-    if (const auto column = PoseColumn(parameters, i))
+    if (const auto column = ColumnOf(parameters, {CameraParameter::Kind::kRotation, i, 0}))
       camera.sigmas.translation_mm =
           TranslationSigmas(covariance.block<6, 6>(*column, *column),
                             camera.cam_from_stage.rotation * old_from_new.translation_mm);
     camera.cam_from_stage = camera.cam_from_stage * old_from_new;
-  }
-  for (Mirror& mirror : array.mirrors) {
-    // n . x = d for x = old_from_new * x'.
-    mirror.distance_mm -= mirror.normal_in_stage.dot(old_from_new.translation_mm);
-    mirror.normal_in_stage = new_from_old.rotation * mirror.normal_in_stage;
   }
 }
 

@@ -11,8 +11,9 @@
 namespace articap {
 
 // Moves an array to another stage frame: cameras, mirrors, and the standard deviations of the
-// cameras' translations, which depend on where the origin is. They stay relative to the first
-// camera. `covariance` is that of `parameters`, in the old frame.
+// cameras' translations and the mirrors' distances, which depend on where the origin is. They stay
+// relative to the first camera. `covariance` is that of `parameters`, in the frame of the
+// adjustment, and stays there: an array is moved once.
 void MoveStage(const std::vector<CameraParameter>& parameters, const Eigen::MatrixXd& covariance,
                const Rigid3d& new_from_old, CameraArray& array);
 

@@ -66,6 +66,29 @@ TEST(StageFrameTest, SigmasOfTranslationsFollowTheOrigin) {
   EXPECT_EQ(array.cameras[0].sigmas.translation_mm, Eigen::Vector3d::Zero());
 }
 
+// From an origin far to the side the mirror's tilt tells, which hardly matters from the camera.
+TEST(StageFrameTest, SigmasOfMirrorsFollowTheOrigin) {
+  double squares = 0;
+  constexpr int kSeeds = 12;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    const NetworkScene scene = MirrorScene(seed, 15);
+    CameraSightings seen = SeeBoards(scene, 0.1, 20 + seed)[0];
+    seen.lens = scene.array.cameras[0].lens;
+    const auto found = CalibrateMirror(scene.board, seen, {}, {.adjust_lens = false});
+    ASSERT_TRUE(found) << found.error().message;
+    CameraArray array = found->output.array, truth = scene.array;
+    const Rigid3d new_from_old{Eigen::Quaterniond::Identity(), {1500, 0, -800}};
+    MoveStage(found->output.parameters, found->output.covariance, new_from_old, array);
+    MoveStage({}, {}, new_from_old, truth);
+    EXPECT_GT(array.mirrors[0].distance_sigma_mm,
+              1.2 * found->output.array.mirrors[0].distance_sigma_mm);
+    squares += std::pow((array.mirrors[0].distance_mm - truth.mirrors[0].distance_mm) /
+                            array.mirrors[0].distance_sigma_mm,
+                        2);
+  }
+  EXPECT_NEAR(squares / kSeeds, 1, 3 * std::sqrt(2.0 / kSeeds));
+}
+
 std::vector<std::vector<Eigen::Vector2d>> SeePoints(const CameraArray& array,
                                                     const std::vector<Eigen::Vector3d>& points) {
   std::vector<std::vector<Eigen::Vector2d>> seen;
