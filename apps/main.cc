@@ -49,8 +49,8 @@ articap::ExitCode Run(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   using articap::ExitCode;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  // What Ceres has to say of single steps is no concern of the user's: how a solution came out is in
-  // the reports.
+  // What Ceres has to say of single steps is no concern of the user's: how a solution came out is
+  // in the reports.
   FLAGS_minloglevel = google::GLOG_FATAL;
   ExitCode code = ExitCode::kNotUsable;
   try {
