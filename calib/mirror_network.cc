@@ -251,7 +251,8 @@ Network BuildNetwork(MirrorScene scene, const FoundMirrors& found, const MirrorO
   network.array.cameras = {scene.camera};
   for (int i = 0; i < static_cast<int>(found.planes.size()); ++i)
     network.array.mirrors.push_back(MirrorOf(found.planes[i], i, options));
-  for (auto& [frame, picture] : scene.pictures) {
+  for (auto& of_frame : scene.pictures) {
+    Picture& picture = of_frame.second;
     std::erase_if(picture.mirrored, [&](int index) {
       if (found.mirror_of.contains(index)) return false;
       set_aside[{0, index}] =

@@ -27,6 +27,22 @@ AdjustedNetwork AdjustMoving(Network network, const AdjustOptions& options) {
   }
 }
 
+// Sightings that some view has to show what is behind it: an adjustment cannot even begin there.
+void SetAsideBehind(Network& network, LeftOutSightings& set_aside) {
+  const auto residuals_px = ResidualsOf(network);
+  std::vector<NetworkSighting> kept;
+  for (std::size_t i = 0; i < network.sightings.size(); ++i) {
+    NetworkSighting& sighting = network.sightings[i];
+    if (std::isfinite(RmsOf(residuals_px[i])))
+      kept.push_back(std::move(sighting));
+    else
+      set_aside[{sighting.view.camera, sighting.input}] =
+          "by what other views show at this instant the board is behind this camera; are they of "
+          "the same instant?";
+  }
+  network.sightings = std::move(kept);
+}
+
 }  // namespace
 
 double HuberFor_px(const std::vector<std::vector<Eigen::Vector2d>>& residuals_px, double sigmas) {
@@ -38,6 +54,7 @@ double HuberFor_px(const std::vector<std::vector<Eigen::Vector2d>>& residuals_px
 AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const ScreenOptions& options,
                                 LeftOutSightings& set_aside) {
   constexpr int kMostRounds = 3;
+  SetAsideBehind(network, set_aside);
   adjust.huber_px = options.huber_sigmas == 0 ? 0 : 1;
   AdjustedNetwork adjusted = AdjustMoving(std::move(network), adjust);
   for (int round = 0;; ++round) {

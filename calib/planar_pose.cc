@@ -29,29 +29,47 @@ Rigid3d ToRigid(const cv::Mat& rotation_vector, const cv::Mat& translation) {
           Eigen::Vector3d(translation.ptr<double>())};
 }
 
+// A lens that is only roughly known may fold the picture over before its edges: most of a board
+// does.
+bool IsEnough(std::size_t shown, std::size_t corners) {
+  constexpr std::size_t kFewest = 4;
+  return shown >= kFewest && 2 * shown >= corners;
+}
+
+bool IsAhead(const BoardSpec& board, const std::vector<int>& corners, const Rigid3d& pose) {
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](int corner) { return (pose * board.corner_in_board_mm(corner)).z() > 0; });
+}
+
 }  // namespace
 
 double RmsOfPose_px(const BoardSpec& board, const Lens& lens, const std::vector<int>& corners,
                     const std::vector<Eigen::Vector2d>& points_px, const Rigid3d& cam_from_board) {
   double sum = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const auto expected = Project(lens, cam_from_board * board.corner_in_board_mm(corners[i]));
-    if (!expected) return HUGE_VAL;
-    sum += (*expected - points_px[i]).squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(corners.size()));
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (const auto expected =
+            Project(lens, cam_from_board * board.corner_in_board_mm(corners[i]))) {
+      sum += (*expected - points_px[i]).squaredNorm();
+      ++shown;
+    }
+  return IsEnough(shown, corners.size()) ? std::sqrt(sum / static_cast<double>(shown)) : HUGE_VAL;
 }
 
 std::vector<PlanarPose> PlanarPosesOf(const BoardSpec& board, const Lens& lens,
                                       const std::vector<int>& corners,
                                       const std::vector<Eigen::Vector2d>& points_px) {
   std::vector<cv::Point2d> in_plane;
-  for (const Eigen::Vector2d& point : points_px) {
-    const auto direction = Unproject(lens, point);
-    if (!direction) return {};
+  std::vector<int> shown;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (!points_px[i].allFinite()) return {};
+    const auto direction = Unproject(lens, points_px[i]);
+    if (!direction) continue;
     in_plane.emplace_back(direction->x(), direction->y());
+    shown.push_back(corners[i]);
   }
-  const std::vector<cv::Point3d> in_board = CornersInBoard(board, corners);
+  if (!IsEnough(shown.size(), corners.size())) return {};
+  const std::vector<cv::Point3d> in_board = CornersInBoard(board, shown);
   const cv::Mat ideal = cv::Mat::eye(3, 3, CV_64F);
   std::vector<cv::Mat> rotations, translations;
   std::vector<PlanarPose> poses;
@@ -66,7 +84,7 @@ std::vector<PlanarPose> PlanarPosesOf(const BoardSpec& board, const Lens& lens,
   for (std::size_t i = 0; i < rotations.size(); ++i) {
     const Rigid3d pose = ToRigid(rotations[i], translations[i]);
     const double rms_px = RmsOfPose_px(board, lens, corners, points_px, pose);
-    if (std::isfinite(rms_px)) poses.push_back({pose, rms_px});
+    if (IsAhead(board, corners, pose) && std::isfinite(rms_px)) poses.push_back({pose, rms_px});
   }
   std::sort(poses.begin(), poses.end(),
             [](const PlanarPose& a, const PlanarPose& b) { return a.rms_px < b.rms_px; });

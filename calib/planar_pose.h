@@ -17,15 +17,16 @@ struct PlanarPose {
   double rms_px = 0;
 };
 
-// The poses, the better one first; none where the corners do not determine any.
+// The poses, the better one first; none where the corners do not determine any. Corners that the
+// lens, as it is, shows nowhere are passed over, as long as they are not the most.
 // T. Collins, A. Bartoli, "Infinitesimal plane-based pose estimation", IJCV 109, 2014; each then
 // refined by least squares on the pixels.
 std::vector<PlanarPose> PlanarPosesOf(const BoardSpec& board, const Lens& lens,
                                       const std::vector<int>& corners,
                                       const std::vector<Eigen::Vector2d>& points_px);
 
-// Root mean square of the distances, px, of corners to where a pose of the board shows them;
-// infinite where it shows one of them nowhere.
+// Root mean square of the distances, px, of corners to where a pose of the board shows them, of
+// those that it shows; infinite where it shows less than half of them.
 double RmsOfPose_px(const BoardSpec& board, const Lens& lens, const std::vector<int>& corners,
                     const std::vector<Eigen::Vector2d>& points_px, const Rigid3d& cam_from_board);
 

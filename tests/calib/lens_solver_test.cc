@@ -11,6 +11,7 @@
 #include <random>
 #include <utility>
 
+#include "calib/planar_pose.h"
 #include "calib/view_screening.h"
 #include "tests/calib/network_scene.h"
 
@@ -134,6 +135,27 @@ TEST(LensSolverTest, APinholeHasNoDistortion) {
   ASSERT_TRUE(solved) << solved.error().message;
   for (double coefficient : solved->adjusted.network.array.cameras[0].lens.distortion)
     EXPECT_EQ(coefficient, 0);
+}
+
+// While only k1 is known, it folds the picture over before the corners of a wide lens' picture. The
+// views that reach there are the ones that matter.
+TEST(LensSolverTest, BoardsPartlyBeyondTheFoldOfARoughLensArePlaced) {
+  NetworkScene scene = LensScene(1, 1);
+  Lens& lens = scene.array.cameras[0].lens;
+  lens = {270, 270.5, 322, 238, {-0.28, 0.08, 0, 0, -0.009}};
+  const Rigid3d truth{Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX())),
+                      {60, -20, 280}};
+  scene.stage_from_board = {truth};
+  const BoardSighting seen = SeeBoards(scene, 0.1, 1)[0].sightings.at(0);
+  lens.distortion = {-0.28};
+  const auto beyond =
+      std::count_if(seen.points_px.begin(), seen.points_px.end(),
+                    [&](const Eigen::Vector2d& point) { return !Unproject(lens, point); });
+  ASSERT_GT(beyond, 0);
+  const auto poses = PlanarPosesOf(scene.board, lens, seen.corners, seen.points_px);
+  ASSERT_FALSE(poses.empty());
+  EXPECT_LT((poses[0].cam_from_board.translation_mm - truth.translation_mm).norm(), 30);
+  EXPECT_LT(poses[0].cam_from_board.rotation.angularDistance(truth.rotation), 0.3);
 }
 
 // One corner in twenty is anywhere within 8 px. Least squares over all of them would make the

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "calib/network_screening.h"
 #include "tests/calib/network_scene.h"
 
 namespace articap {
@@ -228,6 +229,38 @@ TEST(RigCalibrationTest, ACameraThatHangsOnAWrongViewIsNotUsable) {
   ASSERT_TRUE(wrong) << wrong.error().message;
   EXPECT_FALSE(wrong->report.IsUsable());
   EXPECT_THAT(wrong->report.verdict, HasSubstr("cam1: where it stands cannot be told"));
+}
+
+TEST(RigCalibrationTest, BoardsBehindTheCamerasAreSetAside) {
+  const NetworkScene scene = RigScene(1, 2, 12);
+  const std::vector<CameraSightings> seen = SeeBoards(scene, 0.1, 1);
+  Network network;
+  network.board = scene.board;
+  network.array = scene.array;
+  for (const Rigid3d& pose : scene.stage_from_board) network.placements.push_back({pose, 0});
+  for (int camera = 0; camera < 2; ++camera)
+    for (int i = 0; i < static_cast<int>(seen[camera].sightings.size()); ++i) {
+      const BoardSighting& sighting = seen[camera].sightings[i];
+      network.sightings.push_back({{camera, -1},
+                                   static_cast<int>(sighting.frame),
+                                   0,
+                                   i,
+                                   sighting.corners,
+                                   sighting.points_px});
+    }
+  constexpr int kWrong = 4;
+  network.placements[kWrong].stage_from_board.translation_mm.z() = -1000;
+  AdjustOptions held;
+  held.lenses.resize(2);
+  LeftOutSightings set_aside;
+  const AdjustedNetwork adjusted = AdjustAndScreen(network, held, {}, set_aside);
+  EXPECT_TRUE(adjusted.converged) << adjusted.solver_message;
+  EXPECT_NEAR(adjusted.sigma_px, 0.1, 0.02);
+  ASSERT_FALSE(set_aside.empty());
+  for (const auto& [key, reason] : set_aside) {
+    EXPECT_EQ(seen[key.camera].sightings[key.sighting].frame, kWrong);
+    EXPECT_THAT(reason, HasSubstr("behind this camera"));
+  }
 }
 
 TEST(RigCalibrationTest, ACameraWithoutViewsIsNamed) {
