@@ -16,25 +16,14 @@
 #include "apps/progress.h"
 #include "calib/board_finder.h"
 #include "capture/open_frames.h"
+#include "capture/pictures.h"
+#include "core/natural_order.h"
 #include "core/session.h"
 
 namespace articap {
 namespace {
 
 namespace fs = std::filesystem;
-
-// "left03.jpg" -> 3: the last number in a picture's name.
-std::optional<std::int64_t> NumberIn(const std::string& name) {
-  const std::string stem = fs::path(name).stem().string();
-  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-  const auto last = std::find_if(stem.rbegin(), stem.rend(), is_digit);
-  if (last == stem.rend()) return std::nullopt;
-  const auto first = std::find_if_not(last, stem.rend(), is_digit);
-  const std::string digits(first.base(), last.base());
-  constexpr std::size_t kMostDigits = 17;
-  if (digits.size() > kMostDigits) return std::nullopt;
-  return std::stoll(digits);
-}
 
 // Cameras name pictures of one instant by one number, but not every camera has every picture.
 void NumberByName(std::vector<SeenCamera>& cameras) {
@@ -43,7 +32,7 @@ void NumberByName(std::vector<SeenCamera>& cameras) {
     std::set<std::pair<std::int64_t, bool>> seen;
     numbers.emplace_back();
     for (const BoardSighting& sighting : camera.sightings.sightings) {
-      const auto number = NumberIn(sighting.source);
+      const auto number = LastNumberIn(sighting.source);
       if (!number || !seen.insert({*number, sighting.mirrored}).second) return;
       numbers.back().push_back(*number);
     }
@@ -64,8 +53,34 @@ SeenCamera MakeSeenCamera(const std::string& name, const Sightings& found) {
   if (!found.is_video)
     for (const SetAside& picture : found.set_aside)
       camera.set_aside.push_back(
-          fmt::format("{} is set aside: {}", picture.source, picture.reason));
+          picture.source.empty()
+              ? picture.reason
+              : fmt::format("{} is set aside: {}", picture.source, picture.reason));
   return camera;
+}
+
+// "the board moves" of "the board moves: 4.2 px from frame to frame".
+std::string KindOf(const std::string& reason) {
+  return reason.substr(0, std::min({reason.find(':'), reason.find(" ("), reason.find(" beside ")}));
+}
+
+std::size_t CountFrames(const std::vector<FoundBoard>& boards) {
+  std::set<std::int64_t> frames;
+  for (const FoundBoard& board : boards) frames.insert(board.sighting.frame);
+  return frames.size();
+}
+
+// "board.mp4: of 120 frames 90 show the board, 12 chosen; the others: the board moves (78), ..."
+std::string FatesOfFrames(const Sightings& found, const ViewChoice& choice) {
+  std::map<std::string, int> counts;
+  for (const auto* list : {&found.set_aside, &choice.set_aside})
+    for (const SetAside& frame : *list) ++counts[KindOf(frame.reason)];
+  std::vector<std::string> others;
+  for (const auto& [kind, count] : counts) others.push_back(fmt::format("{} ({})", kind, count));
+  return fmt::format("{}: of {} frames {} show the board, {} chosen{}{}",
+                     fs::path(found.camera).filename().string(), found.pictures,
+                     CountFrames(found.found), CountFrames(choice.views),
+                     others.empty() ? "" : "; the others: ", fmt::join(others, ", "));
 }
 
 Result<Sightings> LookForBoards(FrameSource& source, const BoardSpec& board,
@@ -75,24 +90,20 @@ Result<Sightings> LookForBoards(FrameSource& source, const BoardSpec& board,
   });
 }
 
-Result<void> AddKnownLens(const BoardInput& input, SeenCamera& camera) {
-  if (input.lenses.empty()) return {};
-  const Result<CameraArray> lenses = ReadCameras(input.lenses, input.read);
-  if (!lenses) return tl::unexpected(lenses.error());
+Result<void> AddKnownLens(const KnownLenses& lenses, bool only_camera, SeenCamera& camera) {
+  if (lenses.cameras.empty()) return {};
   CameraSightings& of = camera.sightings;
-  const Result<Lens> lens = LensFor(*lenses, input.lenses, of.camera, of.width, of.height);
+  const Result<Lens> lens = lenses.LensFor(of.camera, only_camera, of.width, of.height);
   if (!lens) return tl::unexpected(lens.error());
   of.lens = *lens;
   return {};
 }
 
 // Of the videos the frames that any of them would choose.
-void KeepChosenInstants(const BoardSpec& board, const ViewChoiceOptions& options,
-                        const std::vector<Sightings>& found, std::vector<SeenCamera>& cameras) {
+void KeepChosenInstants(const std::vector<ViewChoice>& choices, std::vector<SeenCamera>& cameras) {
   std::set<std::int64_t> chosen;
-  for (const Sightings& of_camera : found)
-    for (const FoundBoard& view : ChooseViews(of_camera, board, options).views)
-      chosen.insert(view.sighting.frame);
+  for (const ViewChoice& choice : choices)
+    for (const FoundBoard& view : choice.views) chosen.insert(view.sighting.frame);
   for (SeenCamera& camera : cameras)
     std::erase_if(camera.sightings.sightings,
                   [&](const BoardSighting& sighting) { return !chosen.contains(sighting.frame); });
@@ -104,8 +115,11 @@ std::string NameOfPath(const std::string& path) {
   return fs::is_directory(last) ? last.filename().string() : last.stem().string();
 }
 
-// Of left01.jpg, left02.jpg: "left"; of one path its own name.
+// Of left01.jpg, left02.jpg: "left"; of one path its own name, of a take that of its camera.
 std::string CommonNameOf(const std::vector<std::string>& paths) {
+  if (paths.size() == 1 && IsTakeFolder(paths[0]))
+    if (const Result<StoredTake> take = OpenTake(paths[0]); take && !take->cameras().empty())
+      return take->cameras().front();
   std::string common = NameOfPath(paths.front());
   if (paths.size() == 1) return common;
   for (const std::string& path : paths) {
@@ -119,6 +133,26 @@ std::string CommonNameOf(const std::vector<std::string>& paths) {
   return common.empty() ? "camera" : common;
 }
 
+// The sources of one path: one camera, or those of a take.
+Result<void> OpenPath(const std::string& path, std::vector<NamedSource>& sources) {
+  if (!IsTakeFolder(path)) {
+    auto source = OpenFrames({path});
+    if (!source) return tl::unexpected(source.error());
+    sources.push_back({SafeNameOf(NameOfPath(path)), *std::move(source)});
+    return {};
+  }
+  const Result<StoredTake> take = OpenTake(path);
+  if (!take) return tl::unexpected(take.error());
+  if (take->cameras().empty())
+    return Fail(fmt::format("{}: the take holds no video; name one that does", path));
+  for (const std::string& name : take->cameras()) {
+    auto source = OpenCamera(*take, name);
+    if (!source) return tl::unexpected(source.error());
+    sources.push_back({name, *std::move(source)});
+  }
+  return {};
+}
+
 }  // namespace
 
 void AddBoardInput(VerbLine& line, BoardInput& input) {
@@ -126,7 +160,7 @@ void AddBoardInput(VerbLine& line, BoardInput& input) {
             "chessboard:COLUMNSxROWS:SQUARE_MM (inner corners) or "
             "charuco:COLUMNSxROWS:SQUARE_MM:MARKER_MM[:DICTIONARY] (squares)")
       ->required();
-  line.Flag("--lenses", input.lenses, "FILE", "a calibration whose lenses are known already");
+  line.Flag("--lenses", input.lenses, "FILE,...", "calibrations whose lenses are known already");
   line.Stage("detect", input.detect, "detect");
   line.Stage("choose", input.choose, "choose");
   line.Stage("read", input.read);
@@ -136,79 +170,117 @@ Result<SeenCamera> SeeOneCamera(const BoardSpec& board, const BoardInput& input)
   const std::vector<fs::path> paths(input.paths.begin(), input.paths.end());
   const auto source = OpenFrames(paths);
   if (!source) return tl::unexpected(source.error());
+  const Result<KnownLenses> lenses = ReadLenses(input.lenses, input.read);
+  if (!lenses) return tl::unexpected(lenses.error());
   Result<Sightings> found = LookForBoards(**source, board, input);
   if (!found) return tl::unexpected(found.error());
-  if (found->is_video) found->found = ChooseViews(*found, board, input.choose).views;
+  std::vector<std::string> notes = (*source)->info().notes;
+  if (found->is_video) {
+    ViewChoice choice = ChooseViews(*found, board, input.choose);
+    notes.push_back(FatesOfFrames(*found, choice));
+    found->found = std::move(choice.views);
+  }
   SeenCamera camera = MakeSeenCamera(SafeNameOf(CommonNameOf(input.paths)), *found);
-  if (const auto known = AddKnownLens(input, camera); !known) return tl::unexpected(known.error());
+  camera.notes = std::move(notes);
+  if (const auto known = AddKnownLens(*lenses, true, camera); !known)
+    return tl::unexpected(known.error());
   return camera;
 }
 
-Result<std::vector<NamedSource>> OpenCameras(const std::string& path) {
+Result<std::vector<NamedSource>> OpenCameras(const std::vector<std::string>& paths) {
   std::vector<NamedSource> sources;
-  if (!IsTakeFolder(path)) {
-    auto source = OpenFrames({path});
-    if (!source) return tl::unexpected(source.error());
-    sources.push_back({SafeNameOf(NameOfPath(path)), *std::move(source)});
-    return sources;
-  }
-  const Result<StoredTake> take = OpenTake(path);
-  if (!take) return tl::unexpected(take.error());
-  for (const std::string& name : take->cameras()) {
-    auto source = OpenCamera(*take, name);
-    if (!source) return tl::unexpected(source.error());
-    sources.push_back({name, *std::move(source)});
-  }
-  if (sources.empty())
-    return Fail(fmt::format("{}: the take holds no video; name one that does", path));
+  for (const std::string& path : paths)
+    if (const auto opened = OpenPath(path, sources); !opened) return tl::unexpected(opened.error());
+  std::set<std::string> names;
+  for (const NamedSource& source : sources)
+    if (!names.insert(source.name).second)
+      return Fail(
+          fmt::format("two cameras are called {}; rename a folder or a video", source.name));
   return sources;
 }
 
 Result<std::vector<SeenCamera>> SeeCameras(const BoardSpec& board, const BoardInput& input,
                                            bool choose_views) {
+  const Result<std::vector<NamedSource>> sources = OpenCameras(input.paths);
+  if (!sources) return tl::unexpected(sources.error());
+  const Result<KnownLenses> lenses = ReadLenses(input.lenses, input.read);
+  if (!lenses) return tl::unexpected(lenses.error());
   std::vector<SeenCamera> cameras;
-  std::vector<Sightings> all_found;
-  bool any_video = false;
-  for (const std::string& path : input.paths) {
-    Result<std::vector<NamedSource>> sources = OpenCameras(path);
-    if (!sources) return tl::unexpected(sources.error());
-    for (NamedSource& named : *sources) {
-      Result<Sightings> found = LookForBoards(*named.source, board, input);
-      if (!found) return tl::unexpected(found.error());
-      cameras.push_back(MakeSeenCamera(named.name, *found));
-      any_video = any_video || found->is_video;
-      all_found.push_back(*std::move(found));
-      if (const auto known = AddKnownLens(input, cameras.back()); !known)
-        return tl::unexpected(known.error());
-    }
+  std::vector<ViewChoice> choices;
+  for (const NamedSource& named : *sources) {
+    const Result<Sightings> found = LookForBoards(*named.source, board, input);
+    if (!found) return tl::unexpected(found.error());
+    SeenCamera& camera = cameras.emplace_back(MakeSeenCamera(named.name, *found));
+    if (const auto known = AddKnownLens(*lenses, sources->size() == 1, camera); !known)
+      return tl::unexpected(known.error());
+    if (camera.is_video != cameras.front().is_video)
+      return Fail(fmt::format(
+          "{} and {}: one is a video, the other separate pictures, so that nobody knows which were "
+          "taken together; give one kind",
+          cameras.front().sightings.camera, named.name));
+    camera.notes = named.source->info().notes;
+    if (!camera.is_video || !choose_views) continue;
+    choices.push_back(ChooseViews(*found, board, input.choose));
+    camera.notes.push_back(FatesOfFrames(*found, choices.back()));
   }
-  std::set<std::string> names;
-  for (const SeenCamera& camera : cameras)
-    if (!names.insert(camera.sightings.camera).second)
-      return Fail(fmt::format("two cameras are called {}; rename a folder or a video",
-                              camera.sightings.camera));
-  if (any_video && choose_views) KeepChosenInstants(board, input.choose, all_found, cameras);
-  if (!any_video) NumberByName(cameras);
+  if (!choices.empty()) KeepChosenInstants(choices, cameras);
+  if (!cameras.empty() && !cameras.front().is_video) NumberByName(cameras);
   return cameras;
 }
 
-Result<Lens> LensFor(const CameraArray& lenses, const std::string& file, const std::string& camera,
-                     int width, int height) {
-  const auto by_name = std::find_if(lenses.cameras.begin(), lenses.cameras.end(),
-                                    [&](const Camera& c) { return c.name == camera; });
-  if (by_name == lenses.cameras.end() && lenses.cameras.size() > 1) {
-    std::vector<std::string> names;
-    for (const Camera& known : lenses.cameras) names.push_back(known.name);
-    return Fail(fmt::format("{}: holds no camera {}, only {}; rename one of them", file, camera,
-                            fmt::join(names, ", ")));
+Result<KnownLenses> ReadLenses(const std::vector<std::string>& files,
+                               const CameraReadOptions& options) {
+  KnownLenses known{{}, fmt::format("{}", fmt::join(files, ", "))};
+  std::set<std::string> names;
+  for (const std::string& file : files) {
+    const Result<CameraArray> array = ReadCameras(file, options);
+    if (!array) return tl::unexpected(array.error());
+    for (const Camera& camera : array->cameras) {
+      if (!names.insert(camera.name).second)
+        return Fail(fmt::format("{}: two lenses are called {}; rename one in its file", known.files,
+                                camera.name));
+      known.cameras.push_back(camera);
+    }
   }
-  const Camera& known = by_name != lenses.cameras.end() ? *by_name : lenses.cameras.front();
-  if (known.width != width || known.height != height)
+  return known;
+}
+
+Result<Lens> KnownLenses::LensFor(const std::string& camera, bool only_camera, int width,
+                                  int height) const {
+  const bool any_name = only_camera && cameras.size() == 1;
+  const auto known = std::find_if(cameras.begin(), cameras.end(),
+                                  [&](const Camera& c) { return any_name || c.name == camera; });
+  if (known == cameras.end()) {
+    std::vector<std::string> names;
+    for (const Camera& other : cameras) names.push_back(other.name);
+    return Fail(
+        fmt::format("{}: no lens is called {}, only {}; rename one of them, or name "
+                    "another file besides, after a comma",
+                    files, camera, fmt::join(names, ", ")));
+  }
+  if (known->width != width || known->height != height)
     return Fail(fmt::format(
         "{}: the pictures of {} have {}x{} px, but its lens was calibrated for {}x{}; a lens is "
         "right for one size only, calibrate it at this one",
-        file, camera, width, height, known.width, known.height));
-  return known.lens;
+        files, camera, width, height, known->width, known->height));
+  return known->lens;
+}
+
+std::vector<fs::path> InputFiles(const std::vector<std::string>& paths,
+                                 const std::vector<std::string>& lenses) {
+  std::vector<fs::path> files(lenses.begin(), lenses.end());
+  for (const fs::path path : paths) {
+    files.push_back(path);
+    if (IsTakeFolder(path)) {
+      files.push_back(path / "take.toml");
+      if (const Result<StoredTake> take = OpenTake(path))
+        for (const TakeFile& file : take->info.files) files.push_back(take->PathOf(file));
+    } else if (fs::is_directory(path)) {
+      if (const auto pictures = PicturesIn(path))
+        files.insert(files.end(), pictures->begin(), pictures->end());
+    }
+  }
+  return files;
 }
 
 }  // namespace articap

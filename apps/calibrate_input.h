@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ namespace articap {
 struct BoardInput {
   std::string board;  // as typed
   std::vector<std::string> paths;
-  std::string lenses;  // a calibration with lenses that are known already; may be empty
+  std::vector<std::string> lenses;  // calibrations with lenses that are known already
   DetectorOptions detect;
   ViewChoiceOptions choose;
   CameraReadOptions read;
@@ -32,12 +33,8 @@ struct SeenCamera {
   CameraSightings sightings;
   bool is_video = false;
   std::vector<std::string> set_aside;  // pictures that show no board, with the reason; sentences
-};
-
-// Where one camera's pictures are: picture files, one folder, one video or its parts.
-struct CameraPaths {
-  std::string name;
-  std::vector<std::string> paths;
+  // What was found out about its video, and what became of the frames; sentences.
+  std::vector<std::string> notes;
 };
 
 // All paths are one camera's.
@@ -47,16 +44,29 @@ Result<SeenCamera> SeeOneCamera(const BoardSpec& board, const BoardInput& input)
 Result<std::vector<SeenCamera>> SeeCameras(const BoardSpec& board, const BoardInput& input,
                                            bool choose_views);
 
-// The sources of one path: one camera, or those of a take.
+// A camera's pictures.
 struct NamedSource {
   std::string name;
   std::unique_ptr<FrameSource> source;
 };
-Result<std::vector<NamedSource>> OpenCameras(const std::string& path);
+// Each path is a camera's, or a take's, of which all cameras are meant. Refused where two have one
+// name.
+Result<std::vector<NamedSource>> OpenCameras(const std::vector<std::string>& paths);
 
-// The lens of a camera of that name, or of the only one; refused where it was calibrated for
-// pictures of another size.
-Result<Lens> LensFor(const CameraArray& lenses, const std::string& file, const std::string& camera,
-                     int width, int height);
+// The cameras of several calibrations, whose lenses alone count.
+struct KnownLenses {
+  std::vector<Camera> cameras;
+  std::string files;  // for messages
+
+  // The lens of the camera of that name; of the only one for an `only_camera`, whatever its name.
+  // Refused where it was calibrated for pictures of another size.
+  Result<Lens> LensFor(const std::string& camera, bool only_camera, int width, int height) const;
+};
+Result<KnownLenses> ReadLenses(const std::vector<std::string>& files,
+                               const CameraReadOptions& options);
+
+// All files that are read, which no output may replace: those in folders and takes among them.
+std::vector<std::filesystem::path> InputFiles(const std::vector<std::string>& paths,
+                                              const std::vector<std::string>& lenses);
 
 }  // namespace articap

@@ -10,14 +10,15 @@ namespace {
 
 Result<StageReport> RunLens(const BoardInput& input, const BoardSpec& board,
                             const LensOptions& options, const CalibrationOutput& output) {
+  if (const auto kept = RefuseToReplaceInputs(output, InputFiles(input.paths, input.lenses)); !kept)
+    return tl::unexpected(kept.error());
   Result<SeenCamera> seen = SeeOneCamera(board, input);
   if (!seen) return tl::unexpected(seen.error());
   auto lens = WithProgress("calibrating the lens",
                            [&] { return CalibrateLens(board, seen->sightings, options); });
-  if (!lens) return Fail(WithReasons(lens.error().message, seen->set_aside));
-  AddWarnings(seen->set_aside, lens->report);
-  if (const auto written = WriteCalibrationOutputs(lens->output, lens->report, output, input.paths);
-      !written)
+  if (!lens) return Fail(WithReasons(lens.error().message, *seen));
+  AddWhatWasSeen(*seen, lens->report);
+  if (const auto written = WriteCalibrationOutputs(lens->output, lens->report, output); !written)
     return tl::unexpected(written.error());
   return lens->report;
 }

@@ -17,16 +17,21 @@ struct MirrorArguments {
 
 Result<StageReport> RunMirror(const MirrorArguments& arguments, const BoardSpec& board) {
   BoardInput input = arguments.input;
+  if (const auto kept =
+          RefuseToReplaceInputs(arguments.output, InputFiles(input.paths, input.lenses));
+      !kept)
+    return tl::unexpected(kept.error());
+  if (const auto told = RequireToldCorners(board); !told) return tl::unexpected(told.error());
   input.detect.look_in_mirror = true;
   Result<SeenCamera> seen = SeeOneCamera(board, input);
   if (!seen) return tl::unexpected(seen.error());
   auto mirror = WithProgress("calibrating the mirror", [&] {
     return CalibrateMirror(board, seen->sightings, arguments.lens, arguments.mirror);
   });
-  if (!mirror) return Fail(WithReasons(mirror.error().message, seen->set_aside));
-  AddWarnings(seen->set_aside, mirror->report);
+  if (!mirror) return Fail(WithReasons(mirror.error().message, *seen));
+  AddWhatWasSeen(*seen, mirror->report);
   if (const auto written =
-          WriteCalibrationOutputs(mirror->output, mirror->report, arguments.output, input.paths);
+          WriteCalibrationOutputs(mirror->output, mirror->report, arguments.output);
       !written)
     return tl::unexpected(written.error());
   return mirror->report;
@@ -52,6 +57,8 @@ ExitCode CalibrateMirrorCommand(const std::vector<std::string>& arguments) {
   if (const auto exit = line.Parse(arguments)) return *exit;
   const Result<BoardSpec> board = ParseBoardSpec(values.input.board);
   if (!board) return FailWith(ExitCode::kWrongUsage, board.error().message);
+  if (const auto stage = CheckStageName(values.output); !stage)
+    return FailWith(ExitCode::kWrongUsage, stage.error().message);
   const Result<StageReport> report = RunMirror(values, *board);
   return report ? line.Finish({*report}) : FailWith(report.error());
 }

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "apps/output_names.h"
 #include "apps/output_set.h"
 #include "calib/calibration_json.h"
+#include "calib/calibration_report.h"
 #include "calib/stage_frame.h"
 #include "core/calibration_toml.h"
 #include "report/calibration_page.h"
@@ -16,59 +18,93 @@
 namespace articap {
 namespace {
 
-Result<Rigid3d> ChooseStage(const Calibration& calibration, const std::string& stage) {
-  if (stage == "first") return Rigid3d{};
-  const auto rest_of = [&](const char* prefix) -> std::optional<std::string> {
-    if (!stage.starts_with(prefix)) return std::nullopt;
-    return stage.substr(std::string(prefix).size());
-  };
-  if (const auto camera = rest_of("camera:")) return StageOfCamera(calibration.array, *camera);
-  if (const auto picture = rest_of("board:")) return StageOfBoard(calibration, *picture);
-  return Fail(fmt::format(
-      "--stage {}: is none of first (the first camera), camera:NAME, board:PICTURE", stage));
+constexpr const char* kReportEndings[] = {".report.json", ".report.html"};
+
+// "left" of "camera:left"; nothing where the text does not begin so.
+std::optional<std::string> RestOf(const std::string& text, const std::string& prefix) {
+  if (!text.starts_with(prefix)) return std::nullopt;
+  return text.substr(prefix.size());
 }
 
-Result<void> WriteAll(const CameraArray& array, const StageReport& report, const std::string& json,
-                      const CalibrationOutput& output, const std::vector<std::string>& inputs) {
+Result<Rigid3d> ChooseStage(const Calibration& calibration, const std::string& stage) {
+  if (const auto camera = RestOf(stage, "camera:"))
+    return StageOfCamera(calibration.array, *camera);
+  if (const auto picture = RestOf(stage, "board:")) return StageOfBoard(calibration, *picture);
+  return Rigid3d{};
+}
+
+Result<void> WriteAll(const CameraArray& array, bool usable, const std::string& json,
+                      const CalibrationOutput& output) {
   OutputSet outputs;
-  if (report.IsUsable()) outputs.Add(output.path, WriteCalibration(array));
-  outputs.Add(Beside(output.path, ".report.json"), json);
-  outputs.Add(Beside(output.path, ".report.html"), CalibrationPage(json));
-  if (const auto allowed = outputs.RefuseToOverwrite({inputs.begin(), inputs.end()}); !allowed)
-    return allowed;
+  if (usable) outputs.Add(output.path, WriteCalibration(array));
+  outputs.Add(Beside(output.path, kReportEndings[0]), json);
+  outputs.Add(Beside(output.path, kReportEndings[1]), CalibrationPage(json));
   return outputs.Commit();
+}
+
+void WarnOfEarlierOutput(const CalibrationOutput& output, StageReport& report) {
+  std::error_code error;
+  if (!report.IsUsable() && std::filesystem::exists(output.path, error))
+    report.warnings.push_back(fmt::format(
+        "{} is of an earlier calibration and stays as it was; this report is not about it",
+        output.path));
 }
 
 }  // namespace
 
-Result<void> WriteCalibrationOutputs(Calibration& calibration, const StageReport& report,
-                                     const CalibrationOutput& output,
-                                     const std::vector<std::string>& inputs) {
+Result<void> CheckStageName(const CalibrationOutput& output, bool has_l_frame) {
+  const std::string& stage = output.stage;
+  const auto camera = RestOf(stage, "camera:");
+  const auto picture = RestOf(stage, "board:");
+  if (stage == "first" || (camera && !camera->empty())) return {};
+  if (has_l_frame ? stage == "l-frame" : picture && !picture->empty()) return {};
+  return Fail(fmt::format("--stage {}: is none of first (the first camera), camera:NAME, {}", stage,
+                          has_l_frame ? "l-frame" : "board:PICTURE"));
+}
+
+Result<void> RefuseToReplaceInputs(const CalibrationOutput& output,
+                                   const std::vector<std::filesystem::path>& inputs) {
+  OutputSet outputs;
+  outputs.Add(output.path, "");
+  for (const char* ending : kReportEndings) outputs.Add(Beside(output.path, ending), "");
+  return outputs.RefuseToOverwrite(inputs);
+}
+
+Result<void> WriteCalibrationOutputs(Calibration& calibration, StageReport& report,
+                                     const CalibrationOutput& output) {
   const Result<Rigid3d> stage = ChooseStage(calibration, output.stage);
   if (!stage) return tl::unexpected(stage.error());
   MoveStage(*stage, calibration);
+  DescribePlacesAnew(calibration.array, report);
   calibration.array.source = fmt::format("articap {}", report.stage);
-  return WriteAll(calibration.array, report, CalibrationJson(calibration, report), output, inputs);
+  WarnOfEarlierOutput(output, report);
+  return WriteAll(calibration.array, report.IsUsable(), CalibrationJson(calibration, report),
+                  output);
 }
 
-Result<void> WriteWandOutputs(const WandCalibration& wand, const StageReport& report,
-                              const CalibrationOutput& output,
-                              const std::vector<std::string>& inputs) {
-  return WriteAll(wand.array, report, CalibrationJson(wand, report), output, inputs);
+Result<void> WriteWandOutputs(const WandCalibration& wand, StageReport& report,
+                              const CalibrationOutput& output) {
+  DescribePlacesAnew(wand.array, report);
+  WarnOfEarlierOutput(output, report);
+  return WriteAll(wand.array, report.IsUsable(), CalibrationJson(wand, report), output);
 }
 
-std::string WithReasons(const std::string& message, const std::vector<std::string>& set_aside) {
+std::string WithReasons(const std::string& message, const SeenCamera& seen) {
   constexpr std::size_t kMostNamed = 10;
   std::string text = message;
-  for (std::size_t i = 0; i < std::min(kMostNamed, set_aside.size()); ++i)
-    text += "\n  " + set_aside[i];
-  if (set_aside.size() > kMostNamed)
-    text += fmt::format("\n  and {} more", set_aside.size() - kMostNamed);
+  for (const std::string& note : seen.notes) text += "\n  " + note;
+  for (std::size_t i = 0; i < std::min(kMostNamed, seen.set_aside.size()); ++i)
+    text += "\n  " + seen.set_aside[i];
+  if (seen.set_aside.size() > kMostNamed)
+    text += fmt::format("\n  and {} more", seen.set_aside.size() - kMostNamed);
   return text;
 }
 
-void AddWarnings(const std::vector<std::string>& set_aside, StageReport& report) {
-  report.warnings.insert(report.warnings.begin(), set_aside.begin(), set_aside.end());
+void AddWhatWasSeen(const SeenCamera& seen, StageReport& report) {
+  report.warnings.insert(report.warnings.begin(), seen.set_aside.begin(), seen.set_aside.end());
+  for (const std::string& note : seen.notes) report.texts.emplace_back("note", note);
+  for (auto& [name, value] : report.figures)
+    if (name == "set_aside") value += static_cast<double>(seen.set_aside.size());
 }
 
 }  // namespace articap

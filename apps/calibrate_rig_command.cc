@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include "apps/calibrate_input.h"
 #include "apps/calibrate_outputs.h"
 #include "apps/progress.h"
@@ -16,24 +18,35 @@ struct RigArguments {
 };
 
 Result<StageReport> RunRig(const RigArguments& arguments, const BoardSpec& board) {
+  const BoardInput& input = arguments.input;
+  if (const auto kept =
+          RefuseToReplaceInputs(arguments.output, InputFiles(input.paths, input.lenses));
+      !kept)
+    return tl::unexpected(kept.error());
+  if (const auto told = RequireToldCorners(board); !told) return tl::unexpected(told.error());
   // How the board moves between pictures is seen in those that follow one another.
   const bool choose_views = !arguments.rig.free_time_offsets;
-  Result<std::vector<SeenCamera>> seen = SeeCameras(board, arguments.input, choose_views);
+  Result<std::vector<SeenCamera>> seen = SeeCameras(board, input, choose_views);
   if (!seen) return tl::unexpected(seen.error());
   std::vector<CameraSightings> cameras;
-  std::vector<std::string> set_aside;
+  SeenCamera all;
   for (SeenCamera& camera : *seen) {
+    if (arguments.rig.free_time_offsets && !camera.is_video)
+      return Fail(fmt::format(
+          "{}: separate pictures have no times, by which the cameras' clocks could be compared; "
+          "give videos, or do without --free-time-offsets",
+          camera.sightings.camera));
     for (const std::string& sentence : camera.set_aside)
-      set_aside.push_back(camera.sightings.camera + ": " + sentence);
+      all.set_aside.push_back(camera.sightings.camera + ": " + sentence);
+    all.notes.insert(all.notes.end(), camera.notes.begin(), camera.notes.end());
     cameras.push_back(std::move(camera.sightings));
   }
   auto rig = WithProgress("calibrating the cameras", [&] {
     return CalibrateRig(board, cameras, arguments.lens, arguments.rig);
   });
-  if (!rig) return Fail(WithReasons(rig.error().message, set_aside));
-  AddWarnings(set_aside, rig->report);
-  if (const auto written = WriteCalibrationOutputs(rig->output, rig->report, arguments.output,
-                                                   arguments.input.paths);
+  if (!rig) return Fail(WithReasons(rig.error().message, all));
+  AddWhatWasSeen(all, rig->report);
+  if (const auto written = WriteCalibrationOutputs(rig->output, rig->report, arguments.output);
       !written)
     return tl::unexpected(written.error());
   return rig->report;
@@ -59,6 +72,8 @@ ExitCode CalibrateRigCommand(const std::vector<std::string>& arguments) {
   if (const auto exit = line.Parse(arguments)) return *exit;
   const Result<BoardSpec> board = ParseBoardSpec(values.input.board);
   if (!board) return FailWith(ExitCode::kWrongUsage, board.error().message);
+  if (const auto stage = CheckStageName(values.output); !stage)
+    return FailWith(ExitCode::kWrongUsage, stage.error().message);
   const Result<StageReport> report = RunRig(values, *board);
   return report ? line.Finish({*report}) : FailWith(report.error());
 }

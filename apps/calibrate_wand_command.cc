@@ -21,51 +21,49 @@ namespace fs = std::filesystem;
 
 struct WandArguments {
   std::vector<std::string> paths;
-  std::string lenses;
+  std::vector<std::string> lenses;
   double focal_px = 0;
-  std::string stage = "first";
   std::string l_frame;
   std::vector<std::string> l_frame_mm;
   SpotOptions spots;
   WandOptions wand;
   CameraReadOptions read;
-  CalibrationOutput output;
+  CalibrationOutput output{"", "first"};
 };
 
-Result<Lens> LensOf(const WandArguments& arguments, const WandVideo& video) {
+Result<Lens> LensOf(const WandArguments& arguments, const KnownLenses& lenses,
+                    const WandVideo& video) {
   if (arguments.focal_px > 0)
     return Lens{arguments.focal_px,
                 arguments.focal_px,
                 (video.width - 1) / 2.0,
                 (video.height - 1) / 2.0,
                 {}};
-  if (arguments.lenses.empty())
+  if (lenses.cameras.empty())
     return Fail(
-        "--lenses names the calibration with the cameras' lenses ('articap calibrate lens' makes "
+        "--lenses names the calibrations with the cameras' lenses ('articap calibrate lens' makes "
         "one a camera); where nobody knows them, give --focal-px roughly, and --adjust-focal");
-  const Result<CameraArray> lenses = ReadCameras(arguments.lenses, arguments.read);
-  if (!lenses) return tl::unexpected(lenses.error());
-  return LensFor(*lenses, arguments.lenses, video.camera, video.width, video.height);
+  return lenses.LensFor(video.camera, false, video.width, video.height);
 }
 
 Result<std::vector<WandVideo>> SeeWand(const WandArguments& arguments) {
+  const Result<std::vector<NamedSource>> sources = OpenCameras(arguments.paths);
+  if (!sources) return tl::unexpected(sources.error());
+  const Result<KnownLenses> lenses = ReadLenses(arguments.lenses, arguments.read);
+  if (!lenses) return tl::unexpected(lenses.error());
   std::vector<WandVideo> videos;
-  for (const std::string& path : arguments.paths) {
-    Result<std::vector<NamedSource>> sources = OpenCameras(path);
-    if (!sources) return tl::unexpected(sources.error());
-    for (NamedSource& named : *sources) {
-      Result<WandVideo> video =
-          WithProgress("looking for the wand in " + named.name, [&](Progress& progress) {
-            return FindWand(*named.source, arguments.spots,
-                            [&](double part) { progress.SetPart(part); });
-          });
-      if (!video) return tl::unexpected(video.error());
-      video->camera = named.name;
-      const Result<Lens> lens = LensOf(arguments, *video);
-      if (!lens) return tl::unexpected(lens.error());
-      video->lens = *lens;
-      videos.push_back(*std::move(video));
-    }
+  for (const NamedSource& named : *sources) {
+    Result<WandVideo> video =
+        WithProgress("looking for the wand in " + named.name, [&](Progress& progress) {
+          return FindWand(*named.source, arguments.spots,
+                          [&](double part) { progress.SetPart(part); });
+        });
+    if (!video) return tl::unexpected(video.error());
+    video->camera = named.name;
+    const Result<Lens> lens = LensOf(arguments, *lenses, *video);
+    if (!lens) return tl::unexpected(lens.error());
+    video->lens = *lens;
+    videos.push_back(*std::move(video));
   }
   return videos;
 }
@@ -103,12 +101,9 @@ Result<LFrame> LFrameOf(const std::vector<std::string>& lengths_mm) {
 
 Result<Rigid3d> StageOf(const WandArguments& arguments, const WandCalibration& wand,
                         StageReport& report) {
-  if (arguments.stage == "first") return Rigid3d{};
-  if (arguments.stage.starts_with("camera:"))
-    return StageOfCamera(wand.array, arguments.stage.substr(7));
-  if (arguments.stage != "l-frame")
-    return Fail(fmt::format("--stage {}: is none of first (the first camera), camera:NAME, l-frame",
-                            arguments.stage));
+  if (arguments.output.stage == "first") return Rigid3d{};
+  if (arguments.output.stage.starts_with("camera:"))
+    return StageOfCamera(wand.array, arguments.output.stage.substr(7));
   const Result<LFrame> frame = LFrameOf(arguments.l_frame_mm);
   if (!frame) return tl::unexpected(frame.error());
   std::vector<std::vector<Eigen::Vector2d>> points_px;
@@ -129,6 +124,10 @@ Result<Rigid3d> StageOf(const WandArguments& arguments, const WandCalibration& w
 }
 
 Result<StageReport> RunWand(const WandArguments& arguments) {
+  if (const auto kept =
+          RefuseToReplaceInputs(arguments.output, InputFiles(arguments.paths, arguments.lenses));
+      !kept)
+    return tl::unexpected(kept.error());
   const Result<std::vector<WandVideo>> videos = SeeWand(arguments);
   if (!videos) return tl::unexpected(videos.error());
   auto wand = WithProgress("calibrating the cameras",
@@ -138,9 +137,7 @@ Result<StageReport> RunWand(const WandArguments& arguments) {
   if (!stage) return tl::unexpected(stage.error());
   MoveStage(wand->output.parameters, wand->output.covariance, *stage, wand->output.array);
   wand->output.array.source = "articap calibrate wand";
-  if (const auto written =
-          WriteWandOutputs(wand->output, wand->report, arguments.output, arguments.paths);
-      !written)
+  if (const auto written = WriteWandOutputs(wand->output, wand->report, arguments.output); !written)
     return tl::unexpected(written.error());
   return wand->report;
 }
@@ -156,10 +153,10 @@ ExitCode CalibrateWandCommand(const std::vector<std::string>& arguments) {
   WandArguments values;
   line.Arguments("VIDEO|DIR|TAKE", values.paths,
                  "a video or a folder of pictures a camera; or a take with several cameras");
-  line.Flag("--lenses", values.lenses, "FILE", "calibration with the lenses of these cameras");
+  line.Flag("--lenses", values.lenses, "FILE,...", "calibrations with the lenses of these cameras");
   line.Flag("--focal-px", values.focal_px, "X", "instead: their focal length, roughly");
   line.Flag("-o,--output", values.output.path, "FILE", "calibration to write, TOML")->required();
-  line.Flag("--stage", values.stage, "FRAME",
+  line.Flag("--stage", values.output.stage, "FRAME",
             "stage frame: first (the first camera's), camera:NAME, or l-frame");
   line.Flag("--l-frame", values.l_frame, "DIR",
             "pictures of an L-frame of three markers, a file or folder called as each camera");
@@ -168,6 +165,8 @@ ExitCode CalibrateWandCommand(const std::vector<std::string>& arguments) {
   line.Stage("spots", values.spots, "spot");
   line.Stage("read", values.read);
   if (const auto exit = line.Parse(arguments)) return *exit;
+  if (const auto stage = CheckStageName(values.output, /*has_l_frame=*/true); !stage)
+    return FailWith(ExitCode::kWrongUsage, stage.error().message);
   const Result<StageReport> report = RunWand(values);
   return report ? line.Finish({*report}) : FailWith(report.error());
 }

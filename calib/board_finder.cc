@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <iterator>
 #include <map>
 #include <opencv2/core/utility.hpp>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "calib/board_pattern.h"
@@ -17,9 +21,18 @@
 namespace articap {
 namespace {
 
+// What became of a picture.
+struct Outcome {
+  std::string source;
+  Eigen::Vector2i size = Eigen::Vector2i::Zero();  // px; zero where none could be read
+  std::string reason;                              // why it shows no board
+  std::vector<FoundBoard> found;
+};
+
 // A picture that waits to be looked at, with pixels of its own.
 struct Picture {
-  BoardSighting sighting;  // without corners yet
+  std::size_t outcome = 0;  // index
+  BoardSighting sighting;   // without corners yet
   Image image;
   PictureFromImage picture_from_image;
 };
@@ -32,6 +45,20 @@ Image CopyOf(const ImageView& view) {
   const std::size_t row_bytes = static_cast<std::size_t>(view.width) * BytesPerPixel(view.format);
   for (int y = 0; y < view.height; ++y) std::memcpy(image.row(y), view.row(y), row_bytes);
   return image;
+}
+
+// The commonest; of several the one that came first.
+Eigen::Vector2i UsualSize(const std::vector<Outcome>& outcomes) {
+  Eigen::Vector2i usual = Eigen::Vector2i::Zero();
+  std::ptrdiff_t most = 0;
+  for (const Outcome& outcome : outcomes) {
+    if (outcome.size.isZero() || outcome.size == usual) continue;
+    const auto count = std::count_if(outcomes.begin(), outcomes.end(), [&](const Outcome& other) {
+      return other.size == outcome.size;
+    });
+    if (count > most) std::tie(usual, most) = std::pair(outcome.size, count);
+  }
+  return usual;
 }
 
 class Finder {
@@ -49,7 +76,7 @@ class Finder {
       more = ReadNext();
       if (!more || waiting_.size() == kPicturesAtATime) LookAtWaiting();
     }
-    if (out_.pictures > 0) return std::move(out_);
+    if (out_.pictures > 0) return Summarize();
     if (!last_failure_.empty()) return Fail(last_failure_);
     return Fail(fmt::format("{}: holds no picture; give pictures or a video of the board",
                             source_.info().name));
@@ -63,8 +90,7 @@ class Finder {
       // A source that says the same again does not get on.
       if (frame.error().message == last_failure_) return false;
       last_failure_ = frame.error().message;
-      LookAtWaiting();
-      out_.set_aside.push_back({out_.camera, last_failure_});
+      outcomes_.push_back({.reason = last_failure_});
       return true;
     }
     if (!frame->has_value()) return false;
@@ -77,41 +103,35 @@ class Finder {
 
   void Take(const Frame& frame) {
     Picture picture;
+    picture.outcome = outcomes_.size();
     picture.sighting.source =
-        frame.name.empty() ? fmt::format("{}, frame {}", out_.camera, frame.index) : frame.name;
+        frame.name.empty()
+            ? fmt::format("{}, frame {}", std::filesystem::path(out_.camera).filename().string(),
+                          frame.index)
+            : frame.name;
     picture.sighting.frame = frame.index;
     picture.sighting.time = frame.time;
-    if (const auto reason = ReasonAgainst(frame)) {
-      LookAtWaiting();
-      out_.set_aside.push_back({picture.sighting.source, *reason});
+    Outcome& outcome = outcomes_.emplace_back();
+    outcome.source = picture.sighting.source;
+    if (frame.status == FrameStatus::kCorrupt) {
+      outcome.reason = "damaged: not all of it could be decoded";
       return;
     }
+    if (frame.image.empty()) {
+      outcome.reason = "empty";
+      return;
+    }
+    outcome.size = PictureSize(frame.image, frame.picture_from_image);
     picture.image = CopyOf(frame.image);
     picture.picture_from_image = frame.picture_from_image;
     const auto& bytes = picture.image.bytes;
     const std::string hash =
         HashOf(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-    const auto [earlier, is_new] = source_of_hash_.emplace(hash, picture.sighting.source);
-    if (is_new) {
+    const auto [earlier, is_new] = source_of_hash_.emplace(hash, outcome.source);
+    if (is_new)
       waiting_.push_back(std::move(picture));
-      return;
-    }
-    LookAtWaiting();
-    out_.set_aside.push_back(
-        {picture.sighting.source, fmt::format("the same picture as {}", earlier->second)});
-  }
-
-  std::optional<std::string> ReasonAgainst(const Frame& frame) {
-    if (frame.status == FrameStatus::kCorrupt) return "damaged: not all of it could be decoded";
-    if (frame.image.empty()) return "empty";
-    const Eigen::Vector2i size = PictureSize(frame.image, frame.picture_from_image);
-    if (out_.width == 0) {
-      out_.width = size.x();
-      out_.height = size.y();
-    }
-    if (size == Eigen::Vector2i(out_.width, out_.height)) return std::nullopt;
-    return fmt::format("{} x {} px, and the first picture {} x {}; one camera has one size",
-                       size.x(), size.y(), out_.width, out_.height);
+    else
+      outcome.reason = fmt::format("the same picture as {}", earlier->second);
   }
 
   void LookAtWaiting() {
@@ -123,19 +143,37 @@ class Finder {
             DetectBoard(waiting_[i].image.view(), waiting_[i].picture_from_image, board_, options_);
     };
     cv::parallel_for_(cv::Range(0, count), look, count);
-    for (int i = 0; i < count; ++i) Keep(waiting_[i].sighting, results[i]);
+    for (int i = 0; i < count; ++i) Keep(waiting_[i], results[i]);
     waiting_.clear();
   }
 
-  void Keep(const BoardSighting& picture, DetectionResult& result) {
-    if (result.boards.empty()) out_.set_aside.push_back({picture.source, result.reason});
+  void Keep(const Picture& picture, DetectionResult& result) {
+    Outcome& outcome = outcomes_[picture.outcome];
+    outcome.reason = std::move(result.reason);
     for (DetectedBoard& board : result.boards) {
-      FoundBoard found{picture, std::move(board.sigmas_px), board.quality};
+      FoundBoard found{picture.sighting, std::move(board.sigmas_px), board.quality};
       found.sighting.mirrored = board.mirrored;
       found.sighting.corners = std::move(board.corners);
       found.sighting.points_px = std::move(board.points_px);
-      out_.found.push_back(std::move(found));
+      outcome.found.push_back(std::move(found));
     }
+  }
+
+  Sightings Summarize() {
+    const Eigen::Vector2i usual = UsualSize(outcomes_);
+    std::tie(out_.width, out_.height) = std::pair(usual.x(), usual.y());
+    for (Outcome& outcome : outcomes_) {
+      if (!outcome.size.isZero() && outcome.size != usual)
+        out_.set_aside.push_back(
+            {outcome.source,
+             fmt::format("{} x {} px, the others {} x {}; one camera has one size",
+                         outcome.size.x(), outcome.size.y(), usual.x(), usual.y())});
+      else if (outcome.found.empty())
+        out_.set_aside.push_back({outcome.source, outcome.reason});
+      else
+        std::move(outcome.found.begin(), outcome.found.end(), std::back_inserter(out_.found));
+    }
+    return std::move(out_);
   }
 
   FrameSource& source_;
@@ -143,6 +181,7 @@ class Finder {
   const DetectorOptions& options_;
   const std::function<void(double)>& progress_;
   Sightings out_;
+  std::vector<Outcome> outcomes_;  // in the order of the pictures
   std::vector<Picture> waiting_;
   std::map<std::string, std::string> source_of_hash_;
   std::string last_failure_;

@@ -16,7 +16,7 @@ namespace articap {
 
 // A picture that is not used, and why.
 struct SetAside {
-  std::string source;  // as BoardSighting has it
+  std::string source;  // as BoardSighting has it; empty where the reason itself names the file
   std::string reason;  // "no board found"
 
   bool operator==(const SetAside&) const = default;
@@ -40,7 +40,7 @@ struct Sightings {
 };
 
 // Looks for a board in every picture of a source, on all processors; the result does not depend on
-// their number. Set aside are pictures without a board, of another size than the first, damaged
+// their number. Set aside are pictures without a board, of another size than most, damaged
 // ones, and those that hold to the last bit what an earlier one does. `progress`, where given, is
 // called with the part done, 0 to 1, where the source knows how many pictures it has. Fails for a
 // board that there is not, and for a source without any picture.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "calib/calibration.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "calib/planar_pose.h"
@@ -49,6 +51,15 @@ double Calibration::rms_px() const {
     if (sighting.used)
       all.insert(all.end(), sighting.residuals_px.begin(), sighting.residuals_px.end());
   return RmsOf(all);
+}
+
+Result<void> RequireToldCorners(const BoardSpec& board) {
+  if (!board.is_ambiguous()) return {};
+  return Fail(fmt::format(
+      "{} looks the same upside down, so that two views of it cannot agree which corner is which; "
+      "use a board with an even number of corners one way and an odd one the other, or a ChArUco "
+      "board",
+      NameOf(board)));
 }
 
 Calibration MakeCalibration(const std::vector<CameraSightings>& inputs,

@@ -13,6 +13,7 @@
 #include "calib/network.h"
 #include "core/camera.h"
 #include "core/report.h"
+#include "core/result.h"
 
 namespace articap {
 
@@ -66,6 +67,10 @@ struct Calibration {
 
   double rms_px() const;  // over the sightings that were used
 };
+
+// Refuses boards that look the same upside down: two views of it cannot agree which corner is
+// which.
+Result<void> RequireToldCorners(const BoardSpec& board);
 
 // Which sighting of which camera.
 struct SightingKey {

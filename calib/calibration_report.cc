@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/check.h"
+
 namespace articap {
 namespace {
 
@@ -112,8 +114,8 @@ ReportTable WorstSightings(const Calibration& calibration) {
   used.resize(std::min(used.size(), kMost));
   ReportTable table = {"largest residuals", {"corners", "rms_px"}, {}};
   for (const SightingResult* sighting : used)
-    table.rows.push_back(
-        {sighting->source, {static_cast<double>(sighting->corners.size()), sighting->rms_px()}});
+    table.rows.push_back({SourceOf(calibration, *sighting),
+                          {static_cast<double>(sighting->corners.size()), sighting->rms_px()}});
   return table;
 }
 
@@ -223,6 +225,24 @@ std::string VerdictOn(const Calibration& calibration) {
 }
 
 }  // namespace
+
+void DescribePlacesAnew(const CameraArray& array, StageReport& report) {
+  for (ReportTable& table : report.tables) {
+    if (table.name == "mirror") table = MirrorTable(array);
+    if (table.name != "camera") continue;
+    ARTICAP_CHECK(table.rows.size() == array.cameras.size());
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const Camera& camera = array.cameras[i];
+      const Eigen::Vector3d at = camera.cam_from_stage.Inverse().translation_mm;
+      const std::array<double, 4> place = {at.x(), at.y(), at.z(),
+                                           camera.sigmas.translation_mm.norm()};
+      // What is not zero for the rounding of a frame's inverse alone is of no use to anybody.
+      constexpr double kNothing_mm = 1e-9;
+      std::transform(place.begin(), place.end(), table.rows[i].values.begin(),
+                     [](double mm) { return std::abs(mm) < kNothing_mm ? 0 : mm; });
+    }
+  }
+}
 
 double Coverage::part() const {
   const auto seen = std::count_if(corners_in_field.begin(), corners_in_field.end(),

@@ -22,6 +22,10 @@ struct CalibrationLimits {
 StageReport DescribeCalibration(const std::string& kind, const Calibration& calibration,
                                 const CalibrationLimits& limits);
 
+// The tables of a report that say where cameras and mirrors stand, once more in the array's own
+// stage frame: for a stage that is chosen after the report was made. Also for a wand's report.
+void DescribePlacesAnew(const CameraArray& array, StageReport& report);
+
 // The part of a camera's picture, 0 to 1, in which corners were seen: of a grid of 8 x 6 fields.
 struct Coverage {
   static constexpr int kColumns = 8;

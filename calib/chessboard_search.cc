@@ -102,9 +102,12 @@ Error NothingFound(const cv::Mat& picture, const BoardSpec& board, bool thorough
   if (!thorough) return {"no board found"};
   const cv::Size seen = LargestGrid(picture);
   if (seen.area() == 0) return {"no board found"};
-  return {fmt::format("a board with another number of corners: {}x{} seen, {}x{} wanted",
-                      std::max(seen.width, seen.height), std::min(seen.width, seen.height),
-                      board.columns, board.rows)};
+  const int longer = std::max(seen.width, seen.height), shorter = std::min(seen.width, seen.height);
+  const bool is_part = longer <= std::max(board.columns, board.rows) &&
+                       shorter <= std::min(board.columns, board.rows);
+  return {fmt::format("a board with another number of corners: {}x{} seen, {}x{} wanted{}", longer,
+                      shorter, board.columns, board.rows,
+                      is_part ? "; is it all in the picture, and nothing before it?" : "")};
 }
 
 RoughCorners CornersOf(CornerGrid grid) {

@@ -34,11 +34,11 @@ Result<StageResult<Calibration>> CalibrateLens(const BoardSpec& board,
                                                const LensOptions& options) {
   constexpr std::size_t kFewest = 3;
   if (camera.sightings.size() < kFewest)
-    return Fail(
-        fmt::format("{}: the board was found in {} pictures; a lens needs {} at the very least, "
-                    "better 15, with "
-                    "the board tilted to all sides and in all parts of the picture",
-                    camera.camera, camera.sightings.size(), kFewest));
+    return Fail(fmt::format(
+        "{}: {} usable picture{} of the board; a lens needs {} at the very least, "
+        "better 15, with "
+        "the board tilted to all sides and in all parts of the picture",
+        camera.camera, camera.sightings.size(), camera.sightings.size() == 1 ? "" : "s", kFewest));
   Result<SolvedLens> solved = SolveLens(board, camera, options);
   if (!solved) return tl::unexpected(solved.error());
   Calibration calibration = MakeCalibration({camera}, solved->adjusted, solved->set_aside);

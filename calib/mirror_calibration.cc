@@ -25,12 +25,7 @@ Result<void> RefuseUnusable(const BoardSpec& board, const CameraSightings& camer
     return Fail(fmt::format(
         "mirrors is {}, glass_index {:g}; there is one mirror at least, and no glass below 1",
         options.mirrors, options.glass_index));
-  if (board.is_ambiguous())
-    return Fail(fmt::format(
-        "{} looks the same upside down, so that its corners and their reflections cannot be told "
-        "apart; use a board with an even number of corners one way and an odd one the other, or a "
-        "ChArUco board",
-        NameOf(board)));
+  if (const auto told = RequireToldCorners(board); !told) return told;
   if (camera.sightings.empty())
     return Fail(fmt::format("{}: no picture shows the board", camera.camera));
   std::map<std::int64_t, std::pair<bool, bool>> ways;

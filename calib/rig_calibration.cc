@@ -31,17 +31,15 @@ struct StartingCameras {
 Result<void> RefuseUnusable(const BoardSpec& board, const std::vector<CameraSightings>& cameras) {
   if (cameras.size() < 2)
     return Fail("a rig has two cameras or more; for one, use 'articap calibrate lens'");
-  if (board.is_ambiguous())
-    return Fail(fmt::format(
-        "{} looks the same upside down, so that cameras cannot agree which corner is which; use a "
-        "board with an even number of corners one way and an odd one the other, or a ChArUco board",
-        NameOf(board)));
+  if (const auto told = RequireToldCorners(board); !told) return told;
   std::string empty;
   for (const CameraSightings& camera : cameras)
     if (camera.sightings.empty()) empty += (empty.empty() ? "" : ", ") + camera.camera;
   if (!empty.empty())
-    return Fail(fmt::format("{}: no picture shows the board; record again, or leave the camera out",
-                            empty));
+    return Fail(
+        fmt::format("{}: no picture shows the board so that it can be used; record again, or leave "
+                    "the camera out",
+                    empty));
   return {};
 }
 

@@ -29,12 +29,30 @@ std::size_t CountWands(const WandVideo& video) {
                     [](const WandPicture& picture) { return picture.points_px.size() == 2; }));
 }
 
+Result<void> RefuseUnknownTimes(const std::vector<WandVideo>& videos, const WandOptions& options) {
+  const WandVideo& first = videos.front();
+  for (const WandVideo& video : videos)
+    if (video.has_times != first.has_times)
+      return Fail(fmt::format(
+          "{} is a video and {} separate pictures, so that nobody knows which were taken together; "
+          "give one kind",
+          video.has_times ? video.camera : first.camera,
+          video.has_times ? first.camera : video.camera));
+  if (!first.has_times && options.free_time_offsets)
+    return Fail(fmt::format(
+        "{}: separate pictures have no times, by which the cameras' clocks could be compared; give "
+        "videos, or say --no-free-time-offsets where pictures of one number were taken together",
+        first.camera));
+  return {};
+}
+
 Result<void> RefuseUnusable(const std::vector<WandVideo>& videos, const WandOptions& options) {
   if (const auto lengths = RequirePositive(
           {{"length_mm", options.length_mm}, {"length_sigma_mm", options.length_sigma_mm}});
       !lengths)
     return lengths;
   if (videos.size() < 2) return Fail("a wand needs two cameras or more to be seen in depth");
+  if (const auto times = RefuseUnknownTimes(videos, options); !times) return times;
   for (const WandVideo& video : videos)
     if (CountWands(video) < kFewestPictures)
       return Fail(fmt::format(

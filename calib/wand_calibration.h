@@ -15,6 +15,8 @@ namespace articap {
 
 // What looked like the wand's markers in a picture: the centres of bright blobs, px.
 struct WandPicture {
+  // Of separate pictures the number in the name, else the index, as seconds: one number, one
+  // instant.
   SessionTime time;
   std::vector<Eigen::Vector2d> points_px;
 };
@@ -26,6 +28,7 @@ struct WandVideo {
   int height = 0;
   Lens lens;  // calibrated, or roughly known
   std::vector<WandPicture> pictures;
+  bool has_times = true;  // false: separate pictures, of which nobody knows when they were taken
 };
 
 struct WandOptions {
@@ -61,7 +64,7 @@ struct WandCalibration {
 
 // Cameras whose lenses are known, from a wand with two markers. The stage frame is the first
 // camera's. Refused, by name: cameras that hardly see the wand, or never at the same time as
-// others.
+// others; time offsets of separate pictures.
 Result<StageResult<WandCalibration>> CalibrateWand(const std::vector<WandVideo>& videos,
                                                    const WandOptions& options);
 

@@ -5,13 +5,17 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "calib/gray_picture.h"
 #include "calib/opencv_picture.h"
+#include "core/natural_order.h"
 
 namespace articap {
 namespace {
@@ -67,6 +71,13 @@ std::optional<Eigen::Vector2d> CentreOf(const cv::Mat& gray, const cv::Rect& box
   return centre;
 }
 
+// Larger ones are times of day and the like, and no session is so long.
+SessionTime NumberAsTime(const Frame& frame) {
+  constexpr std::int64_t kMost = 1'000'000'000;
+  const std::int64_t number = LastNumberIn(frame.name).value_or(kMost);
+  return SessionTime(std::chrono::seconds(number < kMost ? number : frame.index));
+}
+
 }  // namespace
 
 void VisitOptions(SpotOptions& options, OptionVisitor& visit) {
@@ -117,14 +128,20 @@ Result<WandVideo> FindWand(FrameSource& source, const SpotOptions& options,
   if (const auto checked = CheckOptions(options); !checked) return tl::unexpected(checked.error());
   WandVideo video;
   video.camera = source.info().name;
-  video.width = source.info().width;
-  video.height = source.info().height;
+  video.has_times = source.info().rate_hz > 0;
   for (;;) {
     const Result<std::optional<Frame>> frame = source.Next();
     if (!frame) return tl::unexpected(frame.error());
     if (!*frame) return video;
-    video.pictures.push_back(
-        {(*frame)->time, FindSpots((*frame)->image, (*frame)->picture_from_image, options)});
+    const std::string& name = (*frame)->name;
+    const Eigen::Vector2i size = PictureSize((*frame)->image, (*frame)->picture_from_image);
+    if (video.pictures.empty()) std::tie(video.width, video.height) = std::pair(size.x(), size.y());
+    if (size != Eigen::Vector2i(video.width, video.height))
+      return Fail(fmt::format(
+          "{}: {} has {}x{} px, the first picture {}x{}; one camera has one size", video.camera,
+          name.empty() ? "a frame" : name, size.x(), size.y(), video.width, video.height));
+    video.pictures.push_back({video.has_times ? (*frame)->time : NumberAsTime(**frame),
+                              FindSpots((*frame)->image, (*frame)->picture_from_image, options)});
     if (progress && source.info().frames > 0)
       progress(static_cast<double>(video.pictures.size()) /
                static_cast<double>(source.info().frames));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <utility>
@@ -24,8 +25,28 @@ struct TimedPictures {
   InstantPictures pictures;
 };
 
+std::vector<TimedPictures> SharedOf(std::map<std::int64_t, TimedPictures> instants) {
+  std::vector<TimedPictures> shared;
+  for (auto& [number, at] : instants)
+    if (at.pictures.size() >= 2) shared.push_back(std::move(at));
+  return shared;
+}
+
+std::vector<TimedPictures> GroupByNumber(const std::vector<WandVideo>& videos) {
+  std::map<std::int64_t, TimedPictures> instants;
+  for (int camera = 0; camera < static_cast<int>(videos.size()); ++camera)
+    for (int i = 0; i < static_cast<int>(videos[camera].pictures.size()); ++i) {
+      const WandPicture& picture = videos[camera].pictures[i];
+      if (picture.points_px.size() != 2) continue;
+      TimedPictures& at = instants[picture.time.time_since_epoch().count()];
+      at.time_s = SecondsOf(picture.time);
+      at.pictures.try_emplace(camera, i);
+    }
+  return SharedOf(std::move(instants));
+}
+
 // Of the pictures with two markers; of a camera that takes several in one interval the nearest.
-std::vector<TimedPictures> GroupByInstant(const std::vector<WandVideo>& videos) {
+std::vector<TimedPictures> GroupByTime(const std::vector<WandVideo>& videos) {
   std::vector<std::vector<SessionTime>> times;
   std::vector<std::vector<int>> pictures;
   for (const WandVideo& video : videos) {
@@ -37,7 +58,7 @@ std::vector<TimedPictures> GroupByInstant(const std::vector<WandVideo>& videos) 
         pictures.back().push_back(i);
       }
   }
-  std::map<int, TimedPictures> instants;
+  std::map<std::int64_t, TimedPictures> instants;
   for (const auto& [key, instant] : InstantsByTime(times)) {
     TimedPictures& at = instants[instant.number];
     at.time_s = instant.time_s;
@@ -48,10 +69,11 @@ std::vector<TimedPictures> GroupByInstant(const std::vector<WandVideo>& videos) 
         std::abs(SecondsOf(of_camera[kept->second].time) - at.time_s))
       kept->second = picture;
   }
-  std::vector<TimedPictures> shared;
-  for (auto& [number, at] : instants)
-    if (at.pictures.size() >= 2) shared.push_back(std::move(at));
-  return shared;
+  return SharedOf(std::move(instants));
+}
+
+std::vector<TimedPictures> GroupByInstant(const std::vector<WandVideo>& videos) {
+  return videos.front().has_times ? GroupByTime(videos) : GroupByNumber(videos);
 }
 
 class WandStart {
@@ -115,8 +137,18 @@ class WandStart {
     return slow;
   }
 
+  // What a marker may be off its epipolar line comes of how far the wand moves between the two
+  // cameras' exposures: the least that at least half of the views are within.
+  std::optional<RelativePose> RelativePoseOf(const std::vector<PointPairView>& views,
+                                             double focal_px) const {
+    for (double rough_px : {3.0, 6.0, 12.0, 24.0}) {
+      auto pose = FindRelativePose(views, rough_px / focal_px);
+      if (pose && 2 * static_cast<std::size_t>(pose->num_inliers) >= views.size()) return pose;
+    }
+    return std::nullopt;
+  }
+
   void RelatePairs() {
-    constexpr double kRough_px = 3;
     const int count = static_cast<int>(videos_.size());
     for (int first = 0; first < count; ++first)
       for (int second = first + 1; second < count; ++second) {
@@ -127,7 +159,7 @@ class WandStart {
           if (a && b) views.push_back({*a, *b});
         }
         const double focal_px = (videos_[first].lens.fx_px + videos_[second].lens.fx_px) / 2;
-        auto pose = FindRelativePose(views, kRough_px / focal_px);
+        auto pose = RelativePoseOf(views, focal_px);
         if (!pose) continue;
         if (const auto scale = ScaleOf(views, *pose)) {
           pose->second_from_first.translation_mm *= *scale;

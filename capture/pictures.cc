@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 #include <tuple>
@@ -80,19 +82,25 @@ std::unique_ptr<FrameSource> OpenPictures(std::vector<fs::path> paths, PixelColo
 }
 
 Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
-  std::vector<fs::path> pictures;
+  std::vector<fs::path> pictures, others;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     std::error_code ignored;
-    if (entry->is_regular_file(ignored) && MediaKindOf(entry->path()) == MediaKind::kPicture)
-      pictures.push_back(entry->path());
+    if (!entry->is_regular_file(ignored)) continue;
+    const MediaKind kind = MediaKindOf(entry->path());
+    if (kind == MediaKind::kPicture) pictures.push_back(entry->path());
+    if (kind == MediaKind::kNone) others.push_back(entry->path());
   }
   if (error)
     return Fail(fmt::format("{}: cannot be read ({}); check the path and the folder's rights",
                             folder.string(), error.message()));
   if (pictures.empty())
     return Fail(fmt::format("{}: the folder holds no pictures", folder.string()));
+  std::set<fs::path> endings;
+  for (const fs::path& picture : pictures) endings.insert(picture.extension());
+  std::copy_if(others.begin(), others.end(), std::back_inserter(pictures),
+               [&](const fs::path& other) { return endings.contains(other.extension()); });
   std::sort(pictures.begin(), pictures.end(), [](const fs::path& first, const fs::path& second) {
     return NaturallyBefore(first.filename().string(), second.filename().string());
   });

@@ -19,8 +19,9 @@ namespace articap {
 std::unique_ptr<FrameSource> OpenPictures(std::vector<std::filesystem::path> paths,
                                           PixelColor color = PixelColor::kLuma);
 
-// The pictures in a folder, told by their content, in the order in which people number them. An
-// error where there is none.
+// The pictures in a folder, told by their content, in the order in which people number them; with
+// them files that are no pictures, but end as one of these does: broken ones, which Next() names.
+// An error where there is no picture.
 Result<std::vector<std::filesystem::path>> PicturesIn(const std::filesystem::path& folder);
 
 }  // namespace articap

@@ -2,6 +2,7 @@
 #include "core/natural_order.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <utility>
 
@@ -40,6 +41,17 @@ bool NaturallyBefore(std::string_view first, std::string_view second) {
   }
   // Only leading zeros tell them apart, or one goes on.
   return first.size() != second.size() ? first.size() < second.size() : whole_first < whole_second;
+}
+
+std::optional<std::int64_t> LastNumberIn(std::string_view file_name) {
+  const std::string_view stem = file_name.substr(0, file_name.rfind('.'));
+  const auto end = std::find_if(stem.rbegin(), stem.rend(), IsDigit);
+  const auto begin = std::find_if_not(end, stem.rend(), IsDigit);
+  constexpr std::ptrdiff_t kMostDigits = 17;
+  if (begin == end || begin - end > kMostDigits) return std::nullopt;
+  std::int64_t number = 0;
+  std::from_chars(&*begin.base(), &*begin.base() + (begin - end), number);
+  return number;
 }
 
 }  // namespace articap

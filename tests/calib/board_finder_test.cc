@@ -97,14 +97,25 @@ TEST(BoardFinderTest, EveryPictureIsFoundOrSetAsideWithItsReason) {
   EXPECT_THAT(
       sightings.set_aside,
       ElementsAre(SetAside{"b.png", "no board found"},
-                  SetAside{"c.png",
-                           "322 x 240 px, and the first picture 320 x 240; one camera has one "
-                           "size"},
-                  SetAside{"cam1", "e.png: not a picture"},
+                  SetAside{"c.png", "322 x 240 px, the others 320 x 240; one camera has one size"},
+                  SetAside{"", "e.png: not a picture"},
                   SetAside{"f.png", "the same picture as a.png"},
                   SetAside{"g.png", "damaged: not all of it could be decoded"}));
   ASSERT_EQ(parts.size(), 7U);
   EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+}
+
+TEST(BoardFinderTest, TheSizeIsThatOfMostPictures) {
+  BoardPictureOptions large = kSmall;
+  large.width = 330;
+  const Image odd = PictureOf(kBoard, BoardPose::Turned(0.1, 0.2, 0.05), large);
+  Shots source({{"a.png", odd}, {"b.png", PictureAt(0)}, {"c.png", PictureAt(20)}}, 0);
+  const Sightings sightings = OrThrow(FindBoards(source, kBoard));
+  EXPECT_EQ(sightings.width, 320);
+  EXPECT_EQ(sightings.found.size(), 2U);
+  ASSERT_EQ(sightings.set_aside.size(), 1U);
+  EXPECT_EQ(sightings.set_aside[0].source, "a.png");
+  EXPECT_THAT(sightings.set_aside[0].reason, HasSubstr("330 x 240 px, the others 320 x 240"));
 }
 
 TEST(BoardFinderTest, TheResultIsTheSameEveryTime) {

@@ -246,7 +246,7 @@ TEST(LensSolverTest, AFewPicturesAreNotEnough) {
   const NetworkScene scene = LensScene(8, 2);
   const auto lens = CalibrateLens(scene.board, SeeBoards(scene, 0.1, 8)[0], {});
   ASSERT_FALSE(lens);
-  EXPECT_THAT(lens.error().message, HasSubstr("was found in 2 pictures"));
+  EXPECT_THAT(lens.error().message, HasSubstr("2 usable pictures of the board"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -150,6 +151,55 @@ TEST(WandCalibrationTest, MarkersThatAreNoWandAreRefused) {
   ASSERT_FALSE(wand);
   EXPECT_THAT(wand.error().message,
               testing::AnyOf(HasSubstr("is the length right"), HasSubstr("cannot be linked")));
+}
+
+TEST(WandCalibrationTest, AShortRecordingOfAFastWandIsLinked) {
+  WandOptions options;
+  options.length_mm = kWandLength_mm;
+  for (unsigned seed = 11; seed <= 14; ++seed) {
+    WandScene scene = WaveWand(4, 240, 0.1, seed);
+    // Every third picture: three times as fast.
+    for (WandVideo& video : scene.videos) {
+      std::vector<WandPicture> third;
+      for (std::size_t i = 0; i < video.pictures.size(); i += 3) third.push_back(video.pictures[i]);
+      video.pictures = std::move(third);
+    }
+    const auto wand = CalibrateWand(scene.videos, options);
+    ASSERT_TRUE(wand) << wand.error().message;
+    EXPECT_TRUE(wand->report.IsUsable()) << wand->report.BriefReport();
+  }
+}
+
+TEST(WandCalibrationTest, SeparatePicturesGoByTheirNumbers) {
+  WandScene scene = WaveWand(3, 100, 0.1, 7, /*synchronous=*/true);
+  for (std::size_t camera = 0; camera < scene.videos.size(); ++camera) {
+    WandVideo& video = scene.videos[camera];
+    video.has_times = false;
+    for (std::size_t i = 0; i < video.pictures.size(); ++i)
+      video.pictures[i].time = SessionTime(std::chrono::seconds(i));
+    // One camera lost its first pictures, another every second one.
+    if (camera == 1) video.pictures.erase(video.pictures.begin(), video.pictures.begin() + 7);
+    if (camera == 0)
+      std::erase_if(video.pictures, [](const WandPicture& picture) {
+        return std::llround(SecondsOf(picture.time)) % 2 == 1;
+      });
+  }
+  WandOptions options;
+  options.length_mm = kWandLength_mm;
+  const auto clocks = CalibrateWand(scene.videos, options);
+  ASSERT_FALSE(clocks);
+  EXPECT_THAT(clocks.error().message, HasSubstr("cam0: separate pictures have no times"));
+  options.free_time_offsets = false;
+  const auto wand = CalibrateWand(scene.videos, options);
+  ASSERT_TRUE(wand) << wand.error().message;
+  // The noise of both coordinates, less what the instants' own six parameters take up.
+  EXPECT_LT(wand->output.rms_px, 0.1 * std::sqrt(2.0) * 1.1) << wand->report.BriefReport();
+  EXPECT_TRUE(wand->report.IsUsable());
+
+  scene.videos[2].has_times = true;
+  const auto mixed = CalibrateWand(scene.videos, options);
+  ASSERT_FALSE(mixed);
+  EXPECT_THAT(mixed.error().message, HasSubstr("cam2 is a video and cam0 separate pictures"));
 }
 
 TEST(WandCalibrationTest, ACameraThatSeesNoWandIsNamed) {

@@ -26,7 +26,8 @@ std::array<Eigen::Vector3d, 2> WandAt(double time_s) {
 
 }  // namespace
 
-WandScene WaveWand(int num_cameras, int num_frames, double noise_px, unsigned seed) {
+WandScene WaveWand(int num_cameras, int num_frames, double noise_px, unsigned seed,
+                   bool synchronous) {
   WandScene scene;
   scene.array = RigScene(seed, num_cameras, 1).array;
   std::mt19937 random(seed);
@@ -34,7 +35,7 @@ WandScene WaveWand(int num_cameras, int num_frames, double noise_px, unsigned se
   std::uniform_real_distribution<double> offset(-0.5 / kWandRate_hz, 0.5 / kWandRate_hz);
   for (std::size_t i = 0; i < scene.array.cameras.size(); ++i) {
     Camera& camera = scene.array.cameras[i];
-    if (i > 0) camera.time_offset_s = offset(random);
+    if (i > 0 && !synchronous) camera.time_offset_s = offset(random);
     WandVideo video{camera.name, camera.width, camera.height, camera.lens, {}};
     for (int frame = 0; frame < num_frames; ++frame) {
       WandPicture picture;

@@ -17,7 +17,8 @@ struct WandScene {
 };
 
 // A wand waved through the volume of RigScene(), at most 0.9 m/s, as its cameras show it with
-// Gaussian noise; none but the first keeps the clock of the array.
-WandScene WaveWand(int num_cameras, int num_frames, double noise_px, unsigned seed);
+// Gaussian noise; none but the first keeps the clock of the array, unless they are `synchronous`.
+WandScene WaveWand(int num_cameras, int num_frames, double noise_px, unsigned seed,
+                   bool synchronous = false);
 
 }  // namespace articap

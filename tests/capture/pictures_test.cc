@@ -17,6 +17,7 @@ namespace articap {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
@@ -127,6 +128,9 @@ TEST_F(PicturesTest, AFolderIsReadInTheOrderOfItsNumbers) {
   for (const fs::path& path : OrThrow(PicturesIn(folder_)))
     names.push_back(path.filename().string());
   EXPECT_THAT(names, ElementsAre("left1.pgm", "left2.pgm", "left10.pgm"));
+  Write("left3.pgm", "");
+  EXPECT_THAT(OrThrow(PicturesIn(folder_)), Contains(folder_ / "left3.pgm"))
+      << "a picture that was lost is not passed over in silence";
   fs::create_directory(folder_ / "empty");
   EXPECT_THAT(PicturesIn(folder_ / "empty").error().message, HasSubstr("no pictures"));
   EXPECT_THAT(PicturesIn(folder_ / "none").error().message, HasSubstr("none: cannot be read"));

@@ -112,6 +112,7 @@ const tests = {
     const said = parseFloat(await page.textContent('#space .words b'));
     assert.ok(Math.abs(said / heldOut.rigidity_mm - 1) < 0.01, `${said} for ${heldOut.rigidity_mm}`);
     assert.equal(await countOf(page, '#space .numbers tr'), 5);
+    assert.match(await page.textContent('.space-view >> nth=0'), /The origin is [^:]+: x points/);
     assert.deepEqual(page.complaints, []);
   },
 

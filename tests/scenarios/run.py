@@ -1,25 +1,29 @@
 # SPDX-License-Identifier: MIT
 """Runs one scenario of the command line: makes its inputs, runs its steps, checks what they leave.
 
-    run.py ARTICAP SCENARIO.toml
+    run.py ARTICAP SCENARIO.toml [PICTURES]
 
 A scenario is a file of
 
     description = "what happens to whom"
     needs = "animface/jaw.trc"          # optional: real data; skipped (exit code 77) without them
     needs_program = "ffmpeg"            # optional, the same for a program
+    needs_pictures = true               # optional: the folder PICTURES, where the tests of
+                                        # articap_calibration_pictures put what it makes
 
     [[input]]                           # files in the scenario's own empty folder
     name = "take.csv"
     text = "..."                        # or hex = "...", or
     ffmpeg = "-f lavfi -i testsrc"      # what ffmpeg makes by these arguments, or
-    from = "other.csv"                  # an earlier input, a file of the source tree, or of the
-                                        # real data; changed by the operations of edits.py
+    pictures = "lens/camera1"           # a folder: a copy of one of PICTURES, or of only = [0, 3]
+                                        # in the order of their names, or
+    from = "other.csv"                  # an earlier input, a file of the source tree, of PICTURES,
+                                        # or of the real data; changed by the operations of edits.py
     edits = [{scale = 100}]
 
     [[step]]
     run = ["convert", "take.csv", "out.trc"]     # arguments of articap; {root} is the source tree,
-                                        # {data} the folder of real data
+                                        # {data} the folder of real data, {pictures} PICTURES
     exit_code = 1                       # default 0
     stdout = ["every text that must appear"]
     warnings = [["chin", "glued"]]      # for each list a warning that says all of it
@@ -60,23 +64,43 @@ def test_data():
     return pathlib.Path(os.environ.get("ARTICAP_TEST_DATA", ROOT.parent / "shared" / "data"))
 
 
+def calibration_pictures():
+    return pathlib.Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else ROOT / "no_pictures"
+
+
+def in_place(argument):
+    return (argument.replace("{root}", str(ROOT)).replace("{data}", str(test_data()))
+            .replace("{pictures}", str(calibration_pictures())))
+
+
 def find_source(name, folder):
-    for base in (folder, ROOT, test_data()):
+    for base in (folder, ROOT, calibration_pictures(), test_data()):
         if (base / name).is_file():
             return base / name
     raise Failure(f"there is no {name} to make an input from")
 
 
+def copy_pictures(spec, path):
+    pictures = sorted((calibration_pictures() / spec["pictures"]).iterdir())
+    path.mkdir(parents=True, exist_ok=True)
+    for number in spec.get("only", range(len(pictures))):
+        shutil.copy(pictures[number], path)
+
+
 def make_input(spec, folder):
     path = folder / spec["name"]
     path.parent.mkdir(parents=True, exist_ok=True)
+    if "pictures" in spec:
+        copy_pictures(spec, path)
+        return
     if "text" in spec:
         data = spec["text"].encode()
     elif "hex" in spec:
         data = bytes.fromhex(spec["hex"])
     elif "ffmpeg" in spec:
-        subprocess.run(["ffmpeg", "-nostdin", "-loglevel", "error", *shlex.split(spec["ffmpeg"]),
-                        path.name], cwd=path.parent, check=True)
+        arguments = shlex.split(in_place(spec["ffmpeg"]))
+        subprocess.run(["ffmpeg", "-nostdin", "-loglevel", "error", *arguments, path.name],
+                       cwd=path.parent, check=True)
         data = path.read_bytes()
     else:
         data = find_source(spec["from"], folder).read_bytes()
@@ -120,9 +144,7 @@ def check_keys(what, text, keys):
 
 def run_step(articap, step, folder):
     before = files_in(folder)
-    arguments = [argument.replace("{root}", str(ROOT)).replace("{data}", str(test_data()))
-                 for argument in step["run"]]
-    result = subprocess.run([articap, *arguments], cwd=folder, capture_output=True,
+    result = subprocess.run([articap, *map(in_place, step["run"])], cwd=folder, capture_output=True,
                             timeout=TIMEOUT_S)
     stdout = result.stdout.decode(errors="replace")
     stderr = result.stderr.decode(errors="replace")
@@ -155,6 +177,9 @@ def main():
     scenario = tomllib.loads(pathlib.Path(sys.argv[2]).read_text())
     if "needs" in scenario and not (test_data() / scenario["needs"]).exists():
         print(f"{test_data() / scenario['needs']} is not there; set ARTICAP_TEST_DATA to run this")
+        return SKIPPED
+    if "needs_pictures" in scenario and not calibration_pictures().is_dir():
+        print("the pictures to calibrate from are not there; ctest makes them before this test")
         return SKIPPED
     if "needs_program" in scenario and not shutil.which(scenario["needs_program"]):
         print(f"the program {scenario['needs_program']} is not there; install it to run this")

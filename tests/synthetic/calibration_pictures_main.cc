@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Writes pictures to calibrate from, and the truth behind them:
 //   articap_calibration_pictures FOLDER --kind lens|rig|mirror|wand [--seed N] [--pictures N]
-// FOLDER/<camera>/<number>.png are 8-bit grey; board.txt names the board (or wand.txt the wand's
-// length in mm); cameras.csv, mirrors.csv and points.csv are the truth.
+//                                [--width PX]
+// FOLDER/<camera>/<number>.png are 8-bit grey, 16:9; board.txt names the board (or wand.txt the
+// wand's length in mm); cameras.csv, mirrors.csv and points.csv are the truth.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -27,6 +28,12 @@ struct Request {
   std::string kind;
   std::uint64_t seed = 1;
   int pictures = 20;
+  int width = 1280;  // px; small pictures are soon made
+
+  CameraModel Model() const {
+    const CameraModel full;
+    return {width, width * 9 / 16, full.focal_px * width / full.width};
+  }
 };
 
 SensorOptions MachineVision() {
@@ -104,13 +111,13 @@ BoardSession SessionOf(const Request& request) {
   BoardSession session;
   session.board = {.columns = 9, .rows = 6, .square_mm = 20};
   if (request.kind == "lens") {
-    session.cameras = RingOfCameras(1, request.seed);
+    session.cameras = RingOfCameras(1, request.seed, request.Model());
     session.poses.reach_mm = {180, 80, 180};
   } else if (request.kind == "rig") {
-    session.cameras = RingOfCameras(4, request.seed);
+    session.cameras = RingOfCameras(4, request.seed, request.Model());
     session.poses.whole_in_views = 2;
   } else {
-    session.cameras = MirrorSetUp(4, request.seed);
+    session.cameras = MirrorSetUp(4, request.seed, request.Model());
     session.board = {.columns = 8, .rows = 5, .square_mm = 12};
     // Halfway between the camera and the mirror, so that both see the front.
     session.poses = {.center_in_stage_mm = {-10, 0, 10},
@@ -147,7 +154,7 @@ Result<void> WriteBoardPictures(const Request& request) {
 // Cameras that run freely: each looks at times of its own.
 Result<void> WriteWandPictures(const Request& request) {
   constexpr double kRate_hz = 50;
-  SyntheticCameras cameras = RingOfCameras(4, request.seed);
+  SyntheticCameras cameras = RingOfCameras(4, request.seed, request.Model());
   RandomGenerator random(request.seed, random_streams::kClocks);
   for (std::size_t i = 1; i < cameras.array.cameras.size(); ++i)
     cameras.array.cameras[i].time_offset_s = random.Uniform(-0.5, 0.5) / kRate_hz;
@@ -184,12 +191,13 @@ std::optional<Request> RequestOf(int argc, char** argv) {
     const std::string option = argv[i];
     const bool is_known = option == "--kind" ||
                           (option == "--seed" && ReadNumber(argv[i + 1], request.seed)) ||
-                          (option == "--pictures" && ReadNumber(argv[i + 1], request.pictures));
+                          (option == "--pictures" && ReadNumber(argv[i + 1], request.pictures)) ||
+                          (option == "--width" && ReadNumber(argv[i + 1], request.width));
     if (!is_known) return std::nullopt;
     if (option == "--kind") request.kind = argv[i + 1];
   }
   for (const char* kind : {"lens", "rig", "mirror", "wand"})
-    if (request.kind == kind && request.pictures > 0) return request;
+    if (request.kind == kind && request.pictures > 0 && request.width > 0) return request;
   return std::nullopt;
 }
 
@@ -200,7 +208,7 @@ int main(int argc, char** argv) {
   const auto request = articap::RequestOf(argc, argv);
   if (!request) {
     std::cerr << "usage: articap_calibration_pictures FOLDER --kind lens|rig|mirror|wand "
-                 "[--seed N] [--pictures N]\n";
+                 "[--seed N] [--pictures N] [--width PX]\n";
     return 2;
   }
   const auto written = request->kind == "wand" ? articap::WriteWandPictures(*request)

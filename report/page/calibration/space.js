@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where cameras, mirrors and boards stood, in the frame of the first camera: x to the right, y
-// down, z ahead.
+// Where cameras, mirrors and boards stood, in the stage frame: mostly that of a camera, x to the
+// right, y down, z ahead.
 import {element, formatFixed, formatNumber} from '../src/text.js';
 
 import {applied, appliedInverse, meetingPoint, rectangleAround, reflected} from './geometry.js';
@@ -75,19 +75,28 @@ function shapesOf(calibration) {
   return {boards, cameras, mirrors, numBoards: placements.length};
 }
 
+/** The camera whose frame the stage is; undefined where that is a board's or an L-frame's. */
+function originOf({cameras}) {
+  const kNothing = 1e-9;
+  const isZero = (value) => Math.abs(value) < kNothing;
+  return cameras.find(({cam_from_stage: {rotation_wxyz: [, ...axis], translation_mm: to}}) =>
+                          [...axis, ...to].every(isZero))
+      ?.name;
+}
+
 export function spaceViews(calibration) {
   const shapes = shapesOf(calibration);
-  const first = calibration.cameras[0].name;
+  const origin = originOf(calibration);
   const views = [
     {
-      heading: 'Seen from above',
+      heading: origin ? 'Seen from above' : 'Seen along the y axis',
       label: 'Top view',
       across: ([x]) => x,
       down: ([, , z]) => -z,
       axes: {right: 'x', up: 'z'}
     },
     {
-      heading: `Seen from the right of “${first}”`,
+      heading: origin ? `Seen from the right of “${origin}”` : 'Seen against the x axis',
       label: 'Side view',
       across: ([, , z]) => z,
       down: ([, y]) => y,
@@ -107,8 +116,9 @@ export function spaceViews(calibration) {
           (drawing, i) => figure(
               'space-view', views[i].heading, drawing, legend(entries),
               i === 0 &&
-                  `Both views have the same scale. The origin is ${
-                      first}: x points to its right, y down, z ahead.`));
+                  'Both views have the same scale. ' +
+                      (origin ? `The origin is ${origin}: x points to its right, y down, z ahead.` :
+                                'The axes are those of the stage frame that was chosen.')));
 }
 
 export function rigidityWords({held_out: heldOut}) {

@@ -13,14 +13,14 @@ function titleOf({calibration}) {
                               `Calibration of the lens of ${cameras[0].name}`;
 }
 
-function factsOf({calibration}) {
+function factsOf({figures, calibration}) {
   const {wand, board, sightings, cameras} = calibration;
   if (wand) return [countOf(wand.instants, 'instant'), cameras.map(({name}) => name).join(', ')];
   const used = sightings.filter(isUsed).length;
   return [
     `board ${board.name} (${board.corner_columns} × ${board.corner_rows} corners, ${
         board.square_mm} mm apart)`,
-    `${countOf(used, 'sighting')} used`, `${sightings.length - used} set aside`
+    `${countOf(used, 'sighting')} used`, `${figures.set_aside} set aside`
   ];
 }
 
