@@ -91,24 +91,7 @@ class NetworkProblem {
   NetworkProblem(const NetworkProblem&) = delete;
   NetworkProblem& operator=(const NetworkProblem&) = delete;
 
-  ceres::Solver::Summary Solve() {
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_SCHUR;
-    options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-    std::vector<double*> blocks;
-    problem_.GetParameterBlocks(&blocks);
-    for (double* block : blocks) options.linear_solver_ordering->AddElementToGroup(block, 1);
-    for (double* block : seen_placements_)
-      options.linear_solver_ordering->AddElementToGroup(block, 0);
-    options.max_num_iterations = options_.max_iterations;
-    options.num_threads = options_.num_threads;
-    options.function_tolerance = 1e-10;
-    options.parameter_tolerance = 1e-10;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem_, &summary);
-    return summary;
-  }
+  ceres::Solver::Summary Solve() { return SolveBySchur(problem_, seen_placements_, options_); }
 
   Network Solution() const {
     Network network = network_;
@@ -119,11 +102,7 @@ class NetworkProblem {
   }
 
   // For residuals of unit variance; rotations as angles.
-  Eigen::MatrixXd Covariance() {
-    std::vector<std::vector<double*>> groups;
-    for (double* block : seen_placements_) groups.push_back({block});
-    return CovarianceOfCameras(problem_, cameras_, groups);
-  }
+  Eigen::MatrixXd Covariance() { return CovarianceOfCameras(problem_, cameras_, seen_placements_); }
 
   const std::vector<CameraParameter>& parameters() const { return cameras_.parameters(); }
   int num_free() const {

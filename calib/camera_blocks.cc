@@ -3,12 +3,15 @@
 
 #include <ceres/crs_matrix.h>
 #include <ceres/manifold.h>
+#include <ceres/ordered_groups.h>
 #include <ceres/product_manifold.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "calib/covariance.h"
 #include "core/check.h"
@@ -58,20 +61,16 @@ CameraParameter LensParameter(int camera, int entry) {
   return {Kind::kDistortion, camera, entry - 4};
 }
 
-// At the solution: the cameras' blocks first, then the groups.
+// At the solution: the cameras' blocks first, then the places'.
 ArrowJacobian JacobianOf(ceres::Problem& problem, const CameraBlocks& cameras,
-                         const std::vector<std::vector<double*>>& groups) {
+                         const std::vector<double*>& places) {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = cameras.free_blocks();
   ArrowJacobian jacobian;
   jacobian.camera_columns = static_cast<int>(cameras.parameters().size());
-  for (const std::vector<double*>& group : groups) {
-    int size = 0;
-    for (double* block : group) {
-      options.parameter_blocks.push_back(block);
-      size += problem.ParameterBlockTangentSize(block);
-    }
-    jacobian.group_sizes.push_back(size);
+  for (double* block : places) {
+    options.parameter_blocks.push_back(block);
+    jacobian.group_sizes.push_back(problem.ParameterBlockTangentSize(block));
   }
   ceres::CRSMatrix matrix;
   ARTICAP_CHECK(problem.Evaluate(options, nullptr, nullptr, nullptr, &matrix));
@@ -254,9 +253,28 @@ CameraArray CameraBlocks::Array() const {
   return array;
 }
 
+ceres::Solver::Summary SolveBySchur(ceres::Problem& problem, const std::vector<double*>& places,
+                                    const AdjustOptions& options) {
+  constexpr double kTolerance = 1e-10;
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  solver.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  std::vector<double*> blocks;
+  problem.GetParameterBlocks(&blocks);
+  for (double* block : blocks) solver.linear_solver_ordering->AddElementToGroup(block, 1);
+  for (double* block : places) solver.linear_solver_ordering->AddElementToGroup(block, 0);
+  solver.max_num_iterations = options.max_iterations;
+  solver.num_threads = options.num_threads;
+  solver.function_tolerance = solver.parameter_tolerance = kTolerance;
+  solver.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  return summary;
+}
+
 Eigen::MatrixXd CovarianceOfCameras(ceres::Problem& problem, const CameraBlocks& cameras,
-                                    const std::vector<std::vector<double*>>& groups) {
-  Eigen::MatrixXd covariance = CameraCovariance(JacobianOf(problem, cameras, groups));
+                                    const std::vector<double*>& places) {
+  Eigen::MatrixXd covariance = CameraCovariance(JacobianOf(problem, cameras, places));
   // Ceres' tangents of quaternions are half angles.
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(covariance.rows());
   for (int i = 0; i < scale.size(); ++i)

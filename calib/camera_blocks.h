@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ceres/problem.h>
+#include <ceres/solver.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -63,10 +64,15 @@ class CameraBlocks {
   std::vector<double*> free_blocks_;
 };
 
-// The covariance of the cameras' free parameters at the solution, for residuals of unit variance;
-// rotations as angles. Each group of further blocks shares no residual with another group.
+// Minimises by Levenberg and Marquardt's method. `places`, blocks that share no residual with one
+// another (the board's placements, the wand's instants), are eliminated first.
+ceres::Solver::Summary SolveBySchur(ceres::Problem& problem, const std::vector<double*>& places,
+                                    const AdjustOptions& options);
+
+// The covariance of the cameras' free parameters at the solution, for residuals of unit variance,
+// the places being free too; rotations as angles.
 Eigen::MatrixXd CovarianceOfCameras(ceres::Problem& problem, const CameraBlocks& cameras,
-                                    const std::vector<std::vector<double*>>& groups);
+                                    const std::vector<double*>& places);
 
 // Writes the standard deviations of a covariance (already times the variance of the residuals) into
 // the cameras and mirrors; 0 for what was held.

@@ -48,7 +48,7 @@ class OpenFramesTest : public testing::Test {
   }
 
   const fs::path folder_ = MakeTemporaryFolder("articap_open_frames_test");
-  const BarFilm film_;
+  const BarFilm film_ = {};
 };
 
 TEST_F(OpenFramesTest, ContentDecides) {
