@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "apps/calibrate_input.h"
 #include "apps/camera_input.h"
 #include "apps/output_names.h"
@@ -10,6 +8,7 @@
 #include "apps/verbs.h"
 #include "calib/mirror_dots.h"
 #include "core/calibration_toml.h"
+#include "core/io/camera_parts.h"
 
 namespace articap {
 namespace {
@@ -23,18 +22,13 @@ struct DotArguments {
   CameraReadOptions read;
 };
 
-// "1280x720"
 Result<Camera> RoughCamera(double focal_px, const std::string& size) {
-  Camera camera;
-  camera.name = "camera";
-  const char* const end = size.data() + size.size();
-  const auto width = std::from_chars(size.data(), end, camera.width);
-  const bool has_height = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x' &&
-                          std::from_chars(width.ptr + 1, end, camera.height).ptr == end;
-  if (!has_height || camera.width <= 0 || camera.height <= 0)
-    return Fail(fmt::format("--size '{}': give the size of the pictures, as 1280x720", size));
-  camera.lens = {focal_px, focal_px, (camera.width - 1) / 2.0, (camera.height - 1) / 2.0, {}};
-  return camera;
+  const Result<Eigen::Vector2i> side_px = ParsePictureSize(size);
+  if (!side_px) return Fail("--size: " + side_px.error().message);
+  return Camera{.name = "camera",
+                .width = side_px->x(),
+                .height = side_px->y(),
+                .lens = CentredLens(focal_px, side_px->x(), side_px->y())};
 }
 
 Result<Camera> CameraOf(const DotArguments& arguments) {
@@ -51,8 +45,7 @@ Result<Camera> CameraOf(const DotArguments& arguments) {
   if (!(arguments.focal_px > 0))
     return Fail(
         "--lenses names the calibration of the camera's lens; where nobody knows it, give "
-        "--focal-px "
-        "and --size");
+        "--focal-px and --size");
   return RoughCamera(arguments.focal_px, arguments.read.size);
 }
 

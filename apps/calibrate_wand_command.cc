@@ -33,12 +33,7 @@ struct WandArguments {
 
 Result<Lens> LensOf(const WandArguments& arguments, const KnownLenses& lenses,
                     const WandVideo& video) {
-  if (arguments.focal_px > 0)
-    return Lens{arguments.focal_px,
-                arguments.focal_px,
-                (video.width - 1) / 2.0,
-                (video.height - 1) / 2.0,
-                {}};
+  if (arguments.focal_px > 0) return CentredLens(arguments.focal_px, video.width, video.height);
   if (lenses.cameras.empty())
     return Fail(
         "--lenses names the calibrations with the cameras' lenses ('articap calibrate lens' makes "

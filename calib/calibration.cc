@@ -45,6 +45,11 @@ void ForgetUnseen(const Network& network, CameraArray& array) {
 
 }  // namespace
 
+Camera CameraWith(const CameraSightings& sightings, const Lens& lens) {
+  return {
+      .name = sightings.camera, .width = sightings.width, .height = sightings.height, .lens = lens};
+}
+
 double Calibration::rms_px() const {
   std::vector<Eigen::Vector2d> all;
   for (const SightingResult& sighting : sightings)

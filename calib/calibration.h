@@ -26,6 +26,9 @@ struct CameraSightings {
   std::optional<Lens> lens;  // where it was calibrated before
 };
 
+// That camera with a lens, at the origin of the stage.
+Camera CameraWith(const CameraSightings& sightings, const Lens& lens);
+
 // What became of a sighting.
 struct SightingResult {
   std::string source;

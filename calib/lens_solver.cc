@@ -26,12 +26,7 @@ std::vector<int> AllSightings(const CameraSightings& camera) {
 
 // The camera before anything is known but its focal length.
 Camera StartCamera(const CameraSightings& camera, double focal_px) {
-  Camera start;
-  start.name = camera.camera;
-  start.width = camera.width;
-  start.height = camera.height;
-  start.lens = {focal_px, focal_px, (camera.width - 1) / 2.0, (camera.height - 1) / 2.0, {}};
-  return start;
+  return CameraWith(camera, CentredLens(focal_px, camera.width, camera.height));
 }
 
 // A placement for every sighting whose pose can be found.
@@ -134,11 +129,7 @@ Result<AdjustedNetwork> SolveFullModel(const BoardSpec& board, const CameraSight
 Result<Camera> StartOf(const BoardSpec& board, const CameraSightings& camera) {
   if (camera.sightings.empty())
     return Fail(fmt::format("{}: in no picture is there a board to calibrate from", camera.camera));
-  if (camera.lens) {
-    Camera start = StartCamera(camera, 1);
-    start.lens = *camera.lens;
-    return start;
-  }
+  if (camera.lens) return CameraWith(camera, *camera.lens);
   const Result<AdjustedNetwork> from_nothing = StartFromNothing(board, camera);
   if (!from_nothing) return tl::unexpected(from_nothing.error());
   return from_nothing->network.array.cameras[0];
@@ -239,6 +230,25 @@ Result<SolvedLens> SolveLens(const BoardSpec& board, const CameraSightings& came
   if (options.simplify) Simplify(solved, options);
   if (options.model == LensModel::kRational) TryRational(solved, options);
   return screened;
+}
+
+Result<StartingLens> StartLens(const BoardSpec& board, const CameraSightings& camera,
+                               const LensOptions& options, bool hold_known_lens) {
+  StartingLens start;
+  if (camera.lens && hold_known_lens) {
+    start.camera = CameraWith(camera, *camera.lens);
+    return start;
+  }
+  LensOptions full = options;
+  full.simplify = false;
+  Result<SolvedLens> solved = SolveLens(board, camera, full);
+  if (!solved) return tl::unexpected(solved.error());
+  start.camera = solved->adjusted.network.array.cameras[0];
+  start.model = solved->model;
+  start.freedom = FreedomOf(solved->model, options);
+  start.set_aside = std::move(solved->set_aside);
+  start.warnings = std::move(solved->warnings);
+  return start;
 }
 
 }  // namespace articap

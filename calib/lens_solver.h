@@ -22,4 +22,18 @@ struct SolvedLens {
 Result<SolvedLens> SolveLens(const BoardSpec& board, const CameraSightings& camera,
                              const LensOptions& options);
 
+// One camera before it is adjusted with others, or with mirrors.
+struct StartingLens {
+  Camera camera;
+  LensModel model = LensModel::kPinhole;
+  LensFreedom freedom;  // none where the lens is held
+  LeftOutSightings set_aside;
+  std::vector<std::string> warnings;
+};
+
+// The lens that is known, where it is to be held, else the full model: what the views do not
+// support is left out in the end, by all of them (calib/lens_model.h).
+Result<StartingLens> StartLens(const BoardSpec& board, const CameraSightings& camera,
+                               const LensOptions& options, bool hold_known_lens);
+
 }  // namespace articap

@@ -44,25 +44,9 @@ Result<void> RefuseUnusable(const BoardSpec& board, const CameraSightings& camer
       camera.camera, both, ways.size(), direct, kFewest));
 }
 
-struct StartingLens {
-  Camera camera;
-  LensModel model = LensModel::kPinhole;
-  LensFreedom freedom;
-  LeftOutSightings set_aside;
-  std::vector<std::string> warnings;
-};
-
 // From what is seen directly: glass before a mirror is nothing that a lens alone could explain.
-Result<StartingLens> StartLens(const BoardSpec& board, const CameraSightings& camera,
-                               const LensOptions& lens_options, const MirrorOptions& options) {
-  StartingLens start;
-  if (camera.lens && !options.adjust_lens) {
-    start.camera = {.name = camera.camera,
-                    .width = camera.width,
-                    .height = camera.height,
-                    .lens = *camera.lens};
-    return start;
-  }
+Result<StartingLens> StartDirectly(const BoardSpec& board, const CameraSightings& camera,
+                                   const LensOptions& lens_options, const MirrorOptions& options) {
   CameraSightings direct = camera;
   std::vector<int> index_in_camera;
   direct.sightings.clear();
@@ -71,16 +55,12 @@ Result<StartingLens> StartLens(const BoardSpec& board, const CameraSightings& ca
       direct.sightings.push_back(camera.sightings[i]);
       index_in_camera.push_back(i);
     }
-  LensOptions lens_start = lens_options;
-  lens_start.simplify = false;  // by all sightings, in the end
-  Result<SolvedLens> solved = SolveLens(board, direct, lens_start);
-  if (!solved) return tl::unexpected(solved.error());
-  start.camera = solved->adjusted.network.array.cameras[0];
-  start.model = solved->model;
-  start.freedom = FreedomOf(solved->model, lens_options);
-  for (const auto& [key, reason] : solved->set_aside)
-    start.set_aside[{0, index_in_camera[key.sighting]}] = reason;
-  start.warnings = std::move(solved->warnings);
+  Result<StartingLens> start = StartLens(board, direct, lens_options, !options.adjust_lens);
+  if (!start) return start;
+  LeftOutSightings set_aside;
+  for (const auto& [key, reason] : start->set_aside)
+    set_aside[{0, index_in_camera[key.sighting]}] = reason;
+  start->set_aside = std::move(set_aside);
   return start;
 }
 
@@ -107,7 +87,7 @@ Result<StageResult<Calibration>> CalibrateMirror(const BoardSpec& board,
                                                  const MirrorOptions& options) {
   if (const auto usable = RefuseUnusable(board, camera, options); !usable)
     return tl::unexpected(usable.error());
-  Result<StartingLens> start = StartLens(board, camera, lens_options, options);
+  Result<StartingLens> start = StartDirectly(board, camera, lens_options, options);
   if (!start) return tl::unexpected(start.error());
   LeftOutSightings set_aside = std::move(start->set_aside);
   Result<Network> network = StartMirrorNetwork(board, camera, start->camera, options, set_aside);

@@ -47,27 +47,16 @@ Result<StartingCameras> SolveLenses(const BoardSpec& board,
                                     const std::vector<CameraSightings>& inputs,
                                     const LensOptions& lens_options, const RigOptions& options) {
   StartingCameras start;
-  LensOptions lens_start = lens_options;
-  lens_start.simplify = false;  // by the whole rig, in the end
   for (int index = 0; index < static_cast<int>(inputs.size()); ++index) {
-    const CameraSightings& input = inputs[index];
-    if (input.lens && !options.adjust_lenses) {
-      start.cameras.push_back({.name = input.camera,
-                               .width = input.width,
-                               .height = input.height,
-                               .lens = *input.lens});
-      start.models.push_back(LensModel::kPinhole);
-      start.freedoms.emplace_back();
-      continue;
-    }
-    Result<SolvedLens> solved = SolveLens(board, input, lens_start);
-    if (!solved) return tl::unexpected(solved.error());
-    start.cameras.push_back(solved->adjusted.network.array.cameras[0]);
-    start.models.push_back(solved->model);
-    start.freedoms.push_back(FreedomOf(solved->model, lens_options));
-    for (auto& [key, reason] : solved->set_aside) start.set_aside[{index, key.sighting}] = reason;
-    for (const std::string& warning : solved->warnings)
-      start.warnings.push_back(input.camera + ": " + warning);
+    Result<StartingLens> lens =
+        StartLens(board, inputs[index], lens_options, !options.adjust_lenses);
+    if (!lens) return tl::unexpected(lens.error());
+    start.cameras.push_back(std::move(lens->camera));
+    start.models.push_back(lens->model);
+    start.freedoms.push_back(lens->freedom);
+    for (auto& [key, reason] : lens->set_aside) start.set_aside[{index, key.sighting}] = reason;
+    for (const std::string& warning : lens->warnings)
+      start.warnings.push_back(inputs[index].camera + ": " + warning);
   }
   return start;
 }

@@ -34,7 +34,8 @@ struct BoardSpec {
   int square_rows() const { return corner_rows() + 1; }
   // Corners are numbered row by row, from 0.
   Eigen::Vector3d corner_in_board_mm(int corner) const {
-    return {square_mm * (corner % corner_columns()), square_mm * (corner / corner_columns()), 0};
+    const int row = corner / corner_columns(), column = corner % corner_columns();
+    return {square_mm * column, square_mm * row, 0};
   }
   // Whether the board, turned by 180 degrees in its plane, looks the same, so that one picture
   // does not tell which corner is the first.

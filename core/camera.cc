@@ -36,6 +36,10 @@ bool IsBeforeFold(const Lens& lens, const Eigen::Vector2d& point) {
 
 }  // namespace
 
+Lens CentredLens(double focal_px, int width, int height) {
+  return {focal_px, focal_px, (width - 1) / 2.0, (height - 1) / 2.0, {}};
+}
+
 Eigen::Matrix2d DistortJacobian(const double* k, const Eigen::Vector2d& point) {
   const double x = point.x(), y = point.y();
   const double r2 = x * x + y * y;

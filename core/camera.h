@@ -35,6 +35,9 @@ struct Lens {
   bool operator==(const Lens&) const = default;
 };
 
+// A lens of which only the focal length is known: square pixels, the axis meets the middle.
+Lens CentredLens(double focal_px, int width, int height);
+
 // Distorts a point of the plane Z = 1. For doubles and for Ceres' Jets.
 template <class T>
 Eigen::Matrix<T, 2, 1> Distort(const T* k, const Eigen::Matrix<T, 2, 1>& point) {
