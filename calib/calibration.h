@@ -2,11 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <compare>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "calib/board_sighting.h"
@@ -80,7 +80,9 @@ struct SightingKey {
   int camera = 0;
   int sighting = 0;
 
-  auto operator<=>(const SightingKey&) const = default;
+  friend bool operator<(const SightingKey& a, const SightingKey& b) {
+    return std::tie(a.camera, a.sighting) < std::tie(b.camera, b.sighting);
+  }
 };
 
 // Sightings that a calibration leaves out, and why.

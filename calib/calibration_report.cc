@@ -138,18 +138,22 @@ void WarnOfGaps(const Calibration& calibration, StageReport& report) {
   }
 }
 
+bool FoldsBeforeCorners(const Camera& camera) {
+  const double right = camera.width - 1, bottom = camera.height - 1;
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, 0), Eigen::Vector2d(right, 0),
+                                        Eigen::Vector2d(0, bottom), Eigen::Vector2d(right, bottom)})
+    if (!Unproject(camera.lens, corner)) return true;
+  return false;
+}
+
 void WarnOfFolds(const Calibration& calibration, StageReport& report) {
   for (const Camera& camera : calibration.array.cameras)
-    for (int i = 0; i < 4; ++i)
-      if (!Unproject(camera.lens,
-                     {(i % 2) * (camera.width - 1.0), (i / 2) * (camera.height - 1.0)})) {
-        report.warnings.push_back(
-            fmt::format("{}: the distortion found folds the picture over before its corners, where "
-                        "the board was never seen; nothing can be measured there. Record it there, "
-                        "or use a simpler model",
-                        camera.name));
-        break;
-      }
+    if (FoldsBeforeCorners(camera))
+      report.warnings.push_back(
+          fmt::format("{}: the distortion found folds the picture over before its corners, where "
+                      "the board was never seen; nothing can be measured there. Record it there, "
+                      "or use a simpler model",
+                      camera.name));
 }
 
 // Views of which nothing is left, cameras and mirrors that nothing ties to the rest.

@@ -68,7 +68,7 @@ EdgeStep StepOf(const Eigen::Vector2d& offset_px, double angle, double bend, dou
 class CrossingEdges {
  public:
   using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = kNumParameters };
+  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = kNumParameters };  // NOLINT: Ceres' names
 
   explicit CrossingEdges(const std::vector<Sample>& samples) : samples_(samples) {
     const int pixels = NumResiduals();

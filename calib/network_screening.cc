@@ -61,13 +61,14 @@ AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const Scr
     adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
     adjusted = AdjustMoving(adjusted.network, adjust);
     if (!options.set_views_aside || round == kMostRounds) return adjusted;
-    const std::vector<BadSighting> bad = ScreenSightings(adjusted);
+    std::vector<BadSighting> bad = ScreenSightings(adjusted);
     if (bad.empty()) return adjusted;
-    for (auto sighting = bad.rbegin(); sighting != bad.rend(); ++sighting) {
+    std::reverse(bad.begin(), bad.end());  // the last first: indices stay right
+    for (const BadSighting& sighting : bad) {
       auto& all = adjusted.network.sightings;
-      const NetworkSighting& removed = all[sighting->sighting];
-      set_aside[{removed.view.camera, removed.input}] = sighting->reason;
-      all.erase(all.begin() + sighting->sighting);
+      const NetworkSighting& removed = all[sighting.sighting];
+      set_aside[{removed.view.camera, removed.input}] = sighting.reason;
+      all.erase(all.begin() + sighting.sighting);
     }
   }
 }

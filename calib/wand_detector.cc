@@ -30,7 +30,7 @@ Levels LevelsOf(const cv::Mat& gray) {
   std::vector<float> values;
   constexpr int kStride = 7;  // enough of them, in no step with any pattern of the rows
   const int count = gray.rows * gray.cols;
-  values.reserve(static_cast<std::size_t>(count / kStride + 1));
+  values.reserve(gray.total() / kStride + 1);
   for (int i = 0; i < count; i += kStride)
     values.push_back(gray.at<float>(i / gray.cols, i % gray.cols));
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -25,7 +25,7 @@ struct TimedPictures {
   InstantPictures pictures;
 };
 
-std::vector<TimedPictures> SharedOf(std::map<std::int64_t, TimedPictures> instants) {
+std::vector<TimedPictures> SharedOf(std::map<std::int64_t, TimedPictures>&& instants) {
   std::vector<TimedPictures> shared;
   for (auto& [number, at] : instants)
     if (at.pictures.size() >= 2) shared.push_back(std::move(at));

@@ -41,7 +41,8 @@ Lens CentredLens(double focal_px, int width, int height);
 // Distorts a point of the plane Z = 1. For doubles and for Ceres' Jets.
 template <class T>
 Eigen::Matrix<T, 2, 1> Distort(const T* k, const Eigen::Matrix<T, 2, 1>& point) {
-  const T x = point.x(), y = point.y();
+  const T& x = point.x();
+  const T& y = point.y();
   const T r2 = x * x + y * y;
   const T radial =
       (1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / (1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
