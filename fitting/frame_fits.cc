@@ -6,8 +6,8 @@
 #include <limits>
 #include <memory>
 
+#include "core/parallel.h"
 #include "fitting/ceres_shape_solver.h"
-#include "fitting/parallel.h"
 
 namespace articap {
 namespace {

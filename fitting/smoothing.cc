@@ -7,8 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "core/parallel.h"
 #include "fitting/normal_equations.h"
-#include "fitting/parallel.h"
 
 namespace articap {
 namespace {

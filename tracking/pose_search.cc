@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/pose_search.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/alignment.h"
+
+namespace articap {
+namespace {
+
+constexpr int kMarkersOfTriples = 9;  // triples are of the most rigid markers
+constexpr int kMostTriples = 24;
+constexpr int kMostProposals = 60000;  // bounds the time that a hopeless frame takes
+constexpr int kRefined = 12;
+constexpr double kSigmas = 3;
+
+using Triple = std::array<int, 3>;
+
+struct Proposal {
+  Rigid3d template_from_stage;
+  double gain = 0;
+};
+
+class HeadSearch {
+ public:
+  HeadSearch(std::span<const Expectation> markers, std::span<const CloudPoint> cloud,
+             const LabelOptions& options)
+      : markers_(markers), cloud_(cloud), options_(options) {}
+
+  std::optional<FoundHead> Find() {
+    for (const Triple& triple : BestTriples()) ProposeFrom(triple);
+    std::sort(proposals_.begin(), proposals_.end(),
+              [](const Proposal& a, const Proposal& b) { return a.gain > b.gain; });
+    std::vector<FoundHead> found;
+    int refined = 0;
+    for (const Proposal& proposal : proposals_) {
+      const bool is_new = std::none_of(found.begin(), found.end(), [&](const FoundHead& head) {
+        return AreAlike(head.template_from_stage, proposal.template_from_stage);
+      });
+      if (!is_new) continue;
+      if (auto head = Refine(proposal.template_from_stage)) found.push_back(std::move(*head));
+      if (++refined == kRefined) break;
+    }
+    return BestOf(found);
+  }
+
+ private:
+  double Tolerance_mm(int a, int b) const {
+    constexpr double kMeasurement_mm = 0.5;
+    return kSigmas * std::hypot(markers_[a].sigma_mm, markers_[b].sigma_mm) + kMeasurement_mm;
+  }
+
+  // The most rigid markers, and of their triples those that determine a pose best.
+  std::vector<Triple> BestTriples() const {
+    std::vector<int> order(markers_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return markers_[a].sigma_mm < markers_[b].sigma_mm; });
+    order.resize(std::min<std::size_t>(order.size(), kMarkersOfTriples));
+    std::vector<std::pair<double, Triple>> rated;
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (std::size_t j = i + 1; j < order.size(); ++j)
+        for (std::size_t k = j + 1; k < order.size(); ++k)
+          rated.emplace_back(UncertaintyOf({order[i], order[j], order[k]}),
+                             Triple{order[i], order[j], order[k]});
+    std::stable_sort(rated.begin(), rated.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Triple> best;
+    for (const auto& [uncertainty, triple] : rated)
+      if (static_cast<int>(best.size()) < kMostTriples) best.push_back(triple);
+    return best;
+  }
+
+  double UncertaintyOf(const Triple& triple) const {
+    std::array<Eigen::Vector3d, 3> points;
+    std::array<double, 3> weights{};
+    for (int i = 0; i < 3; ++i) {
+      points[i] = markers_[triple[i]].position_mm;
+      weights[i] = 1 / (markers_[triple[i]].sigma_mm * markers_[triple[i]].sigma_mm);
+    }
+    return WorstRotationSigma(points, weights);
+  }
+
+  double TemplateDistance_mm(int a, int b) const {
+    return (markers_[a].position_mm - markers_[b].position_mm).norm();
+  }
+  double CloudDistance_mm(int a, int b) const {
+    return (cloud_[a].position_in_stage_mm - cloud_[b].position_in_stage_mm).norm();
+  }
+  bool FitsTogether(int marker_a, int marker_b, int point_a, int point_b) const {
+    return point_a != point_b &&
+           std::abs(CloudDistance_mm(point_a, point_b) - TemplateDistance_mm(marker_a, marker_b)) <
+               Tolerance_mm(marker_a, marker_b);
+  }
+
+  void ProposeFrom(const Triple& triple) {
+    const int count = static_cast<int>(cloud_.size());
+    for (int a = 0; a < count; ++a)
+      for (int b = 0; b < count; ++b) {
+        if (!FitsTogether(triple[0], triple[1], a, b)) continue;
+        for (int c = 0; c < count; ++c) {
+          if (!FitsTogether(triple[0], triple[2], a, c) ||
+              !FitsTogether(triple[1], triple[2], b, c))
+            continue;
+          if (++num_proposals_ > kMostProposals) return;
+          Propose(triple, {a, b, c});
+        }
+      }
+  }
+
+  void Propose(const Triple& markers, const Triple& points) {
+    std::array<Eigen::Vector3d, 3> source, target;
+    for (int i = 0; i < 3; ++i) {
+      source[i] = cloud_[points[i]].position_in_stage_mm;
+      target[i] = markers_[markers[i]].position_mm;
+    }
+    const Rigid3d pose = AlignRigid(source, target);
+    proposals_.push_back({pose, GainOf(pose)});
+  }
+
+  // How many markers find a point, each counting for more the nearer it is.
+  double GainOf(const Rigid3d& pose) const {
+    const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
+    double gain = 0;
+    std::vector<Eigen::Vector3d> places;
+    places.reserve(cloud_.size());
+    for (const CloudPoint& point : cloud_)
+      places.push_back(rotation * point.position_in_stage_mm + pose.translation_mm);
+    for (const Expectation& marker : markers_) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Eigen::Vector3d& place : places)
+        least = std::min(least, (place - marker.position_mm).squaredNorm());
+      const double reach = kSigmas * marker.sigma_mm + 1;
+      gain += std::max(0.0, 1 - least / (reach * reach));
+    }
+    return gain;
+  }
+
+  std::optional<FoundHead> Refine(Rigid3d pose) const {
+    constexpr int kRounds = 6;
+    constexpr double kStartSigma_mm = 3;
+    FoundHead head;
+    double pose_sigma_mm = kStartSigma_mm;
+    for (int round = 0; round < kRounds; ++round) {
+      const LabelCosts costs = CostsOf(markers_, cloud_, pose, pose_sigma_mm, options_);
+      head.points = AssignPoints(costs, cloud_);
+      head.cost = TotalCost(costs, head.points);
+      head.template_from_stage = pose;
+      const auto better = PoseOf(markers_, cloud_, head.points);
+      if (!better) return std::nullopt;
+      pose = *better;
+      pose_sigma_mm /= 2;
+    }
+    const auto count =
+        std::count_if(head.points.begin(), head.points.end(), [](int point) { return point >= 0; });
+    if (static_cast<double>(count) < options_.least_share * static_cast<double>(markers_.size()))
+      return std::nullopt;
+    return head;
+  }
+
+  static bool AreAlike(const Rigid3d& a, const Rigid3d& b) {
+    constexpr double kAngle_rad = 0.35;
+    constexpr double kDistance_mm = 30;
+    const Rigid3d between = a * b.Inverse();
+    return a.rotation.angularDistance(b.rotation) < kAngle_rad &&
+           between.translation_mm.norm() < kDistance_mm;
+  }
+
+  static std::optional<FoundHead> BestOf(const std::vector<FoundHead>& found) {
+    if (found.empty()) return std::nullopt;
+    FoundHead best =
+        *std::min_element(found.begin(), found.end(),
+                          [](const FoundHead& a, const FoundHead& b) { return a.cost < b.cost; });
+    best.next_cost = std::numeric_limits<double>::infinity();
+    for (const FoundHead& head : found)
+      if (!AreAlike(head.template_from_stage, best.template_from_stage))
+        best.next_cost = std::min(best.next_cost, head.cost);
+    return best;
+  }
+
+  std::span<const Expectation> markers_;
+  std::span<const CloudPoint> cloud_;
+  const LabelOptions& options_;
+  std::vector<Proposal> proposals_;
+  int num_proposals_ = 0;
+};
+
+}  // namespace
+
+std::optional<FoundHead> FindHead(std::span<const Expectation> markers,
+                                  std::span<const CloudPoint> cloud, const LabelOptions& options) {
+  if (markers.size() < 3 || cloud.size() < 3) return std::nullopt;
+  return HeadSearch(markers, cloud, options).Find();
+}
+
+}  // namespace articap

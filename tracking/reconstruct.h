@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/dots.h"
+#include "core/options.h"
+#include "core/point_cloud.h"
+#include "core/result.h"
+#include "tracking/sight_line.h"
+
+namespace articap {
+
+struct ReconstructOptions {
+  double calibration_px = 0.05;  // what calibration is taken to be off at a dot, SD
+  // How far a dot may lie from where the other views put it, whatever its noise; nothing: as far as
+  // the recording itself shows them to lie (MatchOf_px).
+  std::optional<double> match_px;
+  double match_sigmas = 4;  // of its noise, where that is more
+  double nearest_mm = 100;  // to a camera, along the ray
+  double farthest_mm = 10000;
+};
+void VisitOptions(ReconstructOptions& options, OptionVisitor& visit);
+Result<void> CheckOptions(const ReconstructOptions& options);
+
+// Finds which dots of one instant are the same marker, and where it is. Nothing is known of other
+// instants, so that frames can be treated in any order, and in parallel: what one frame gets wrong
+// does no harm to the next.
+//
+// Rays of two views that meet are a hypothesis, to which every other view adds the dot nearest to
+// where it would show the point. The hypotheses that most views agree on come first, then the one
+// with the least residual; each dot is one marker's. Pairs that only two views support stay beside
+// one another as alternatives where they claim the same dot: labels decide.
+class Reconstructor {
+ public:
+  // match_px must be given.
+  Reconstructor(const CameraArray& array, const ReconstructOptions& options);
+
+  // By camera: its dots. In a mirror's camera every dot may be seen directly or by any of its
+  // mirrors, as far as the mirror's region says nothing else.
+  std::vector<CloudPoint> operator()(std::span<const std::vector<Dot>> dots) const;
+
+  const CameraArray& array() const { return array_; }
+  const std::vector<ViewProjection>& projections() const { return projections_; }
+
+ private:
+  CameraArray array_;
+  ReconstructOptions options_;
+  std::vector<ViewProjection> projections_;
+};
+
+// Of one instant, by camera: the dots of its picture.
+using InstantDots = std::vector<std::vector<Dot>>;
+
+// How well views agree in a recording: five times the median residual of what three views or more
+// see (two, where nothing else is), found with a wide gate in some of its frames, px.
+double MatchOf_px(const CameraArray& array, std::span<const InstantDots> instants,
+                  const ReconstructOptions& options);
+
+// Every instant by itself, on all processors; the result does not depend on their number.
+std::vector<std::vector<CloudPoint>> Reconstruct(const CameraArray& array,
+                                                 std::span<const InstantDots> instants,
+                                                 const ReconstructOptions& options);
+
+}  // namespace articap
