@@ -20,7 +20,8 @@ struct DotSight {
 // A marker in space that has no name yet.
 struct CloudPoint {
   Eigen::Vector3d position_in_stage_mm = Eigen::Vector3d::Zero();
-  // From the noise of the pixels; NaN where it is not known, as of a file of markers.
+  // From the noise of the pixels; NaN where it is not known, as of a file of markers. What a single
+  // view sees has a long one, along its ray: where on it, the labels will say.
   Eigen::Matrix3d covariance_mm2 = Eigen::Matrix3d::Constant(CameraSigmas::kUnknown);
   double residual_px = 0;        // RMS of its sights; NaN where there are none
   std::vector<DotSight> sights;  // empty where read from a file of markers

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "tracking/label_assignment.h"
+#include "tracking/label_smoothing.h"
 #include "tracking/label_votes.h"
 #include "tracking/pose_search.h"
+#include "tracking/rigidity.h"
 
 namespace articap {
 namespace {
@@ -24,7 +27,7 @@ constexpr double kFoundPoseSigma_mm = 0.3;
 struct MarkerState {
   bool seen = false;  // ever
   int frame = 0;      // when last
-  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  MarkerPlace place;
   Eigen::Vector3d velocity_mm_per_frame = Eigen::Vector3d::Zero();
 };
 
@@ -32,10 +35,14 @@ struct MarkerState {
 class LabelPass {
  public:
   LabelPass(const PointClouds& clouds, const MarkerTemplate& marker_template,
-            const LabelOptions& options)
-      : clouds_(clouds), options_(options), states_(marker_template.markers.size()) {
+            const LabelPriors& priors, const LabelOptions& options)
+      : clouds_(clouds),
+        priors_(priors),
+        options_(options),
+        states_(marker_template.markers.size()) {
     for (const TemplateMarker& marker : marker_template.markers)
-      home_.push_back({marker.position_mm, marker.sigma_mm});
+      home_.push_back(
+          {marker.position_mm, marker.sigma_mm * marker.sigma_mm * Eigen::Matrix3d::Identity()});
   }
 
   int searches() const { return searches_; }
@@ -44,6 +51,9 @@ class LabelPass {
     const auto& cloud = clouds_.frames[frame];
     LabelledFrame result = Follow(frame);
     if (!IsEnough(result)) result = Search(cloud);
+    DropDoubtful(cloud, result);
+    result.places = ExpectAll(frame);
+    AddPlaces(cloud, result);
     if (result.template_from_stage) Remember(frame, result);
     return result;
   }
@@ -59,15 +69,14 @@ class LabelPass {
     last_frame_ = frame;
     for (int m = 0; m < static_cast<int>(states_.size()); ++m) {
       if (labelled.points[m] < 0) continue;
+      const MarkerPlace place = labelled.places[m];
       MarkerState& state = states_[m];
-      const Eigen::Vector3d position =
-          pose * clouds_.frames[frame][labelled.points[m]].position_in_stage_mm;
       state.velocity_mm_per_frame.setZero();
       if (state.seen && std::abs(frame - state.frame) == 1)
-        state.velocity_mm_per_frame = position - state.position_mm;
+        state.velocity_mm_per_frame = place.position_mm - state.place.position_mm;
       state.seen = true;
       state.frame = frame;
-      state.position_mm = position;
+      state.place = place;
     }
   }
 
@@ -76,25 +85,22 @@ class LabelPass {
     return std::abs(frame - earlier) / clouds_.rate_hz;
   }
 
-  // Near where it was last, as far as an acceleration may have led it; the longer it is unseen, the
-  // more at home.
-  Expectation Expect(int marker, int frame) const {
+  // An Ornstein-Uhlenbeck process around home: near where it was last, and the longer it is unseen
+  // (in any direction), the more at home. For a frame it also goes on as it went, damped.
+  MarkerPlace Expect(int marker, int frame) const {
     const MarkerState& state = states_[marker];
-    const Expectation& home = home_[marker];
+    const MarkerPlace& home = home_[marker];
     if (!state.seen) return home;
-    const double since_s = SecondsSince(frame, state.frame);
-    const double trust =
-        std::exp(-std::max(0.0, since_s - 1 / clouds_.rate_hz) / options_.memory_s);
-    // One frame of constant velocity, damped: what is fast stops soon.
-    const Eigen::Vector3d ahead = state.position_mm + 0.8 * state.velocity_mm_per_frame;
-    const double strayed_mm = options_.acceleration_mm_s2 * since_s * since_s / 2;
-    const double sigma_mm =
-        trust * std::min(strayed_mm, home.sigma_mm) + (1 - trust) * home.sigma_mm;
-    return {trust * ahead + (1 - trust) * home.position_mm, std::max(sigma_mm, kLeastSigma_mm)};
+    constexpr double kDamped = 0.8;
+    const double kept = std::exp(-SecondsSince(frame, state.frame) / options_.memory_s);
+    const Eigen::Vector3d ahead = state.place.position_mm + kDamped * state.velocity_mm_per_frame;
+    return {kept * ahead + (1 - kept) * home.position_mm,
+            kept * kept * state.place.covariance_mm2 + (1 - kept * kept) * home.covariance_mm2 +
+                kLeastSigma_mm * kLeastSigma_mm * Eigen::Matrix3d::Identity()};
   }
 
-  std::vector<Expectation> ExpectAll(int frame) const {
-    std::vector<Expectation> all;
+  std::vector<MarkerPlace> ExpectAll(int frame) const {
+    std::vector<MarkerPlace> all;
     for (int m = 0; m < static_cast<int>(states_.size()); ++m) all.push_back(Expect(m, frame));
     return all;
   }
@@ -106,17 +112,18 @@ class LabelPass {
     const double since_s = SecondsSince(frame, last_frame_);
     if (since_s > options_.memory_s) return result;
     const auto& cloud = clouds_.frames[frame];
-    const std::vector<Expectation> expected = ExpectAll(frame);
-    Rigid3d pose = step_ * *last_pose_;
-    double pose_sigma_mm =
+    const std::vector<MarkerPlace> expected = ExpectAll(frame);
+    const double strayed_mm =
         kFoundPoseSigma_mm + options_.head_acceleration_mm_s2 * since_s * since_s / 2;
+    constexpr double kArm_mm = 80;  // at which turning moves a marker as far as shifting
+    const PosePrior prior = {step_ * *last_pose_, strayed_mm / kArm_mm, strayed_mm};
+    Rigid3d pose = prior.template_from_stage;
+    double pose_sigma_mm = strayed_mm;
     for (int round = 0; round < kRounds; ++round) {
-      const LabelCosts costs = CostsOf(expected, cloud, pose, pose_sigma_mm, options_);
+      const LabelCosts costs = CostsOf(expected, cloud, pose, pose_sigma_mm, priors_);
       result.points = AssignPoints(costs, cloud);
-      result.margins = MarginsOf(costs, result.points);
-      const auto better = PoseOf(expected, cloud, result.points);
-      if (!better) return result;
-      pose = *better;
+      result.margins = MarginsOf(costs, cloud, result.points);
+      pose = PoseOf(expected, cloud, result.points, prior);
       pose_sigma_mm = kFoundPoseSigma_mm;
     }
     result.template_from_stage = pose;
@@ -135,26 +142,76 @@ class LabelPass {
     LabelledFrame result;
     result.points.assign(home_.size(), -1);
     result.margins.assign(home_.size(), std::numeric_limits<float>::quiet_NaN());
-    const auto found = FindHead(home_, cloud, options_);
+    const auto found = FindHead(home_, cloud, priors_, options_);
     if (!found) return result;
     ++searches_;
     result.template_from_stage = found->template_from_stage;
     result.points = found->points;
     result.margins =
-        MarginsOf(CostsOf(home_, cloud, found->template_from_stage, kFoundPoseSigma_mm, options_),
-                  found->points);
+        MarginsOf(CostsOf(home_, cloud, found->template_from_stage, kFoundPoseSigma_mm, priors_),
+                  cloud, found->points);
     return result;
   }
 
   const PointClouds& clouds_;
+  const LabelPriors& priors_;
   const LabelOptions& options_;
-  std::vector<Expectation> home_;  // where the template says
+  std::vector<MarkerPlace> home_;  // where the template says
   std::vector<MarkerState> states_;
   std::optional<Rigid3d> last_pose_;
   int last_frame_ = 0;
   Rigid3d step_;  // of the head, from one frame to the next
   int searches_ = 0;
 };
+
+// How often a marker is seen by one view only: as often as more views see fewer markers than there
+// are. They bet on one another's dots where nothing contradicts them, hence the bounds.
+LabelPriors PriorsOf(const PointClouds& clouds, const MarkerTemplate& marker_template,
+                     const LabelOptions& options) {
+  std::vector<double> by_more_views;
+  for (const auto& cloud : clouds.frames)
+    by_more_views.push_back(
+        static_cast<double>(std::count_if(cloud.begin(), cloud.end(), [](const CloudPoint& point) {
+          return point.sights.size() != 1;
+        })));
+  const double most = options.seen * static_cast<double>(marker_template.markers.size());
+  constexpr double kLeast = 0.02, kMost = 0.6;
+  LabelPriors priors = {options.seen, options.false_points, kLeast};
+  if (!by_more_views.empty())
+    priors.seen_by_one_view = std::clamp(1 - MedianOf(by_more_views) / most, kLeast, kMost);
+  return priors;
+}
+
+// Dots of a frame that no labelled point explains. Points of a file count as dots.
+int CountUnexplained(const std::vector<CloudPoint>& cloud, const std::vector<int>& labelled) {
+  std::set<std::pair<int, int>> explained, all;
+  const auto insert = [](const CloudPoint& point, int index, auto& dots) {
+    for (const DotSight& sight : point.sights) dots.insert({sight.view.camera, sight.dot});
+    if (point.sights.empty()) dots.insert({-1, index});
+  };
+  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) insert(cloud[i], i, all);
+  for (const int point : labelled)
+    if (point >= 0) insert(cloud[point], point, explained);
+  return static_cast<int>(all.size() - explained.size());
+}
+
+// What the first pass says about how many markers are seen, and how many points are false.
+LabelPriors LearnFrom(const PointClouds& clouds, const std::vector<LabelledFrame>& frames,
+                      LabelPriors priors) {
+  int known = 0, expected = 0, unexplained = 0, counted = 0;
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    if (!frames[frame].template_from_stage) continue;
+    ++counted;
+    known += frames[frame].num_labelled();
+    expected += static_cast<int>(frames[frame].points.size());
+    unexplained += CountUnexplained(clouds.frames[frame], frames[frame].points);
+  }
+  if (counted == 0) return priors;
+  constexpr double kLeastSeen = 0.5, kMostSeen = 0.99, kFewestFalse = 0.05;
+  priors.seen = std::clamp(1.0 * known / expected, kLeastSeen, kMostSeen);
+  priors.false_points = std::max(kFewestFalse, 1.0 * unexplained / counted);
+  return priors;
+}
 
 }  // namespace
 
@@ -167,12 +224,12 @@ void VisitOptions(LabelOptions& options, OptionVisitor& visit) {
   visit("seen", options.seen, "part of a marker's frames in which it is found");
   visit("false_points", options.false_points,
         "points a frame, in a cube of 300 mm, that are no markers");
-  visit("acceleration_mm_s2", options.acceleration_mm_s2,
-        "about the most of a marker within the head; mm/s2");
   visit("head_acceleration_mm_s2", options.head_acceleration_mm_s2,
         "about the most of the head; mm/s2");
+  visit("attitude_sigma_deg", options.attitude_sigma_deg,
+        "how far the head is turned from where the template was learnt, SD; degrees");
   visit("memory_s", options.memory_s,
-        "after this long unseen, a marker is expected where the template says; s");
+        "how long a marker stays away from where the template says, about; s");
   visit("least_share", options.least_share,
         "part of the markers that must be seen to find the head anew");
 }
@@ -183,15 +240,16 @@ Result<void> CheckOptions(const LabelOptions& options) {
     if (!(value > 0 && value < 1))
       return Fail(fmt::format("{} is {}; it must lie between 0 and 1", name, value));
   return RequirePositive({{"false_points", options.false_points},
-                          {"acceleration_mm_s2", options.acceleration_mm_s2},
                           {"head_acceleration_mm_s2", options.head_acceleration_mm_s2},
+                          {"attitude_sigma_deg", options.attitude_sigma_deg},
                           {"memory_s", options.memory_s}});
 }
 
 Labelling LabelClouds(const PointClouds& clouds, const MarkerTemplate& marker_template,
                       const LabelOptions& options) {
   Labelling labelling;
-  LabelPass forwards(clouds, marker_template, options);
+  const LabelPriors priors = PriorsOf(clouds, marker_template, options);
+  LabelPass forwards(clouds, marker_template, priors, options);
   int first = -1;  // frame in which the head is found
   for (int frame = 0; frame < clouds.num_frames(); ++frame) {
     labelling.frames.push_back(forwards.Label(frame));
@@ -200,11 +258,14 @@ Labelling LabelClouds(const PointClouds& clouds, const MarkerTemplate& marker_te
   labelling.searches = forwards.searches();
   // What came before may show too little of the head to find it, yet enough to follow it.
   if (first > 0) {
-    LabelPass backwards(clouds, marker_template, options);
+    LabelPass backwards(clouds, marker_template, priors, options);
     backwards.Remember(first, labelling.frames[first]);
     for (int frame = first - 1; frame >= 0; --frame)
       labelling.frames[frame] = backwards.Label(frame);
   }
+  const LabelPriors learnt = LearnFrom(clouds, labelling.frames, priors);
+  labelling.relabelled =
+      RelabelFromBothSides(clouds, marker_template, learnt, options.memory_s / 2, labelling.frames);
   labelling.swaps_repaired = RepairByVotes(clouds, labelling.frames);
   return labelling;
 }

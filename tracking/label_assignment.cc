@@ -2,12 +2,12 @@
 #include "tracking/label_assignment.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "core/alignment.h"
 #include "tracking/assignment.h"
 
 namespace articap {
@@ -24,6 +24,11 @@ Eigen::Matrix3d CovarianceOf_mm2(const CloudPoint& point) {
   return kAssumedPointSigma_mm * kAssumedPointSigma_mm * Eigen::Matrix3d::Identity();
 }
 
+Eigen::Matrix3d CovarianceInTemplate(const CloudPoint& point, const Rigid3d& template_from_stage) {
+  const Eigen::Matrix3d rotation = template_from_stage.rotation.toRotationMatrix();
+  return rotation * CovarianceOf_mm2(point) * rotation.transpose();
+}
+
 // Of two labelled points that claim one dot, the dearer: marker index, or -1.
 int FindContradiction(const LabelCosts& costs, std::span<const CloudPoint> cloud,
                       const std::vector<int>& points) {
@@ -38,6 +43,38 @@ int FindContradiction(const LabelCosts& costs, std::span<const CloudPoint> cloud
   return -1;
 }
 
+Eigen::Vector3d MiddleOf(std::span<const MarkerPlace> markers) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const MarkerPlace& marker : markers) sum += marker.position_mm;
+  return sum / static_cast<double>(markers.size());
+}
+
+Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
+// A small rotation about a point, then a translation.
+Rigid3d TurnedAbout(const Eigen::Vector3d& center, const Eigen::Matrix<double, 6, 1>& change) {
+  const Eigen::Vector3d turn = change.head<3>();
+  const double angle = turn.norm();
+  Rigid3d result;
+  if (angle > 0) result.rotation = Eigen::AngleAxisd(angle, turn / angle);
+  result.translation_mm = center + change.tail<3>() - result.rotation * center;
+  return result;
+}
+
+// The change that leads from `from` to `to`, as TurnedAbout takes it.
+Eigen::Matrix<double, 6, 1> DifferenceOf(const Rigid3d& to, const Rigid3d& from,
+                                         const Eigen::Vector3d& center) {
+  const Rigid3d between = to * from.Inverse();
+  const Eigen::AngleAxisd turn(between.rotation);
+  Eigen::Matrix<double, 6, 1> change;
+  change << turn.angle() * turn.axis(), between * center - center;
+  return change;
+}
+
 }  // namespace
 
 bool ClaimOneDot(const CloudPoint& a, const CloudPoint& b) {
@@ -47,32 +84,32 @@ bool ClaimOneDot(const CloudPoint& a, const CloudPoint& b) {
   return false;
 }
 
-LabelCosts CostsOf(std::span<const Expectation> markers, std::span<const CloudPoint> cloud,
+LabelCosts CostsOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
                    const Rigid3d& template_from_stage, double pose_sigma_mm,
-                   const LabelOptions& options) {
-  const double false_per_mm3 = std::max(options.false_points, 1e-3) / std::pow(300.0, 3);
+                   const LabelPriors& priors) {
+  const double false_per_mm3 = std::max(priors.false_points, 1e-3) / std::pow(300.0, 3);
   const double constant =
-      3 * std::log(2 * std::numbers::pi) + 2 * std::log(false_per_mm3) - 2 * std::log(options.seen);
+      3 * std::log(2 * std::numbers::pi) + 2 * std::log(false_per_mm3) - 2 * std::log(priors.seen);
   LabelCosts result;
-  result.null_cost = -2 * std::log(1 - options.seen);
+  result.null_cost = -2 * std::log(1 - priors.seen);
   result.costs.setConstant(static_cast<int>(markers.size()), static_cast<int>(cloud.size()),
                            kInfinity);
-  const Eigen::Matrix3d rotation = template_from_stage.rotation.toRotationMatrix();
+  const Eigen::Matrix3d of_pose = pose_sigma_mm * pose_sigma_mm * Eigen::Matrix3d::Identity();
   for (int p = 0; p < static_cast<int>(cloud.size()); ++p) {
-    const Eigen::Vector3d position =
-        rotation * cloud[p].position_in_stage_mm + template_from_stage.translation_mm;
-    const Eigen::Matrix3d covariance = rotation * CovarianceOf_mm2(cloud[p]) * rotation.transpose();
-    const double largest = covariance.trace();
+    const Eigen::Vector3d position = template_from_stage * cloud[p].position_in_stage_mm;
+    const double views =
+        cloud[p].sights.size() == 1 ? priors.seen_by_one_view : 1 - priors.seen_by_one_view;
+    const Eigen::Matrix3d of_point = CovarianceInTemplate(cloud[p], template_from_stage) + of_pose;
     for (int m = 0; m < static_cast<int>(markers.size()); ++m) {
       const Eigen::Vector3d apart = position - markers[m].position_mm;
-      const double variance =
-          markers[m].sigma_mm * markers[m].sigma_mm + pose_sigma_mm * pose_sigma_mm;
-      if (apart.squaredNorm() > kFarthest_sigmas * kFarthest_sigmas * (variance + largest))
-        continue;
-      const Eigen::LLT<Eigen::Matrix3d> factor(covariance + variance * Eigen::Matrix3d::Identity());
+      const Eigen::Matrix3d covariance = of_point + markers[m].covariance_mm2;
+      // The trace is no less than the variance in any direction.
+      if (apart.squaredNorm() > kFarthest_sigmas * kFarthest_sigmas * covariance.trace()) continue;
+      const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
       const double log_determinant =
           2 * Eigen::Matrix3d(factor.matrixL()).diagonal().array().log().sum();
-      result.costs(m, p) = factor.matrixL().solve(apart).squaredNorm() + log_determinant + constant;
+      result.costs(m, p) = factor.matrixL().solve(apart).squaredNorm() + log_determinant +
+                           constant - 2 * std::log(views);
     }
   }
   return result;
@@ -95,17 +132,21 @@ double TotalCost(const LabelCosts& costs, const std::vector<int>& points) {
   return total;
 }
 
-std::vector<float> MarginsOf(const LabelCosts& costs, const std::vector<int>& points) {
-  std::vector<char> taken(static_cast<std::size_t>(costs.costs.cols()), 0);
-  for (const int point : points)
-    if (point >= 0) taken[point] = 1;
+std::vector<float> MarginsOf(const LabelCosts& costs, std::span<const CloudPoint> cloud,
+                             const std::vector<int>& points) {
+  // A point of dots that labelled points explain is no alternative.
+  std::vector<char> explained(cloud.size(), 0);
+  for (std::size_t p = 0; p < cloud.size(); ++p)
+    explained[p] = std::any_of(points.begin(), points.end(), [&](int point) {
+      return point >= 0 && (point == static_cast<int>(p) || ClaimOneDot(cloud[point], cloud[p]));
+    });
   std::vector<float> margins(points.size(), std::numeric_limits<float>::quiet_NaN());
   for (int m = 0; m < static_cast<int>(points.size()); ++m) {
     if (points[m] < 0) continue;
     const double own = costs.costs(m, points[m]);
     double least = costs.null_cost - own;
     for (int p = 0; p < costs.costs.cols(); ++p)
-      if (!taken[p]) least = std::min(least, costs.costs(m, p) - own);
+      if (!explained[p]) least = std::min(least, costs.costs(m, p) - own);
     for (int other = 0; other < static_cast<int>(points.size()); ++other) {
       if (other == m) continue;
       const double before = points[other] < 0 ? costs.null_cost : costs.costs(other, points[other]);
@@ -118,22 +159,69 @@ std::vector<float> MarginsOf(const LabelCosts& costs, const std::vector<int>& po
   return margins;
 }
 
-std::optional<Rigid3d> PoseOf(std::span<const Expectation> markers,
-                              std::span<const CloudPoint> cloud, const std::vector<int>& points) {
-  std::vector<Eigen::Vector3d> source, target;
-  std::vector<double> weights;
-  for (int m = 0; m < static_cast<int>(points.size()); ++m) {
-    if (points[m] < 0) continue;
-    const CloudPoint& point = cloud[points[m]];
-    source.push_back(point.position_in_stage_mm);
-    target.push_back(markers[m].position_mm);
-    weights.push_back(
-        1 / (markers[m].sigma_mm * markers[m].sigma_mm + CovarianceOf_mm2(point).trace() / 3));
+MarkerPlace PlaceOf(const MarkerPlace& marker, const CloudPoint& point,
+                    const Rigid3d& template_from_stage) {
+  const Eigen::Matrix3d& expected = marker.covariance_mm2;
+  // expected (expected + measured)^-1, both symmetric.
+  const Eigen::Matrix3d gain = (expected + CovarianceInTemplate(point, template_from_stage))
+                                   .llt()
+                                   .solve(expected)
+                                   .transpose();
+  const Eigen::Vector3d apart =
+      template_from_stage * point.position_in_stage_mm - marker.position_mm;
+  return {marker.position_mm + gain * apart, expected - gain * expected};
+}
+
+Rigid3d PoseOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
+               const std::vector<int>& points, const PosePrior& prior) {
+  constexpr int kMostSteps = 8;
+  constexpr double kStill = 1e-7;  // rad, and mm
+  const Eigen::Vector3d center = MiddleOf(markers);
+  Eigen::Matrix<double, 6, 1> information;
+  information << Eigen::Vector3d::Constant(1 /
+                                           (prior.rotation_sigma_rad * prior.rotation_sigma_rad)),
+      Eigen::Vector3d::Constant(1 / (prior.translation_sigma_mm * prior.translation_sigma_mm));
+  Rigid3d pose = prior.template_from_stage;
+  for (int step = 0; step < kMostSteps; ++step) {
+    Eigen::Matrix<double, 6, 6> normal = information.asDiagonal();
+    Eigen::Matrix<double, 6, 1> side =
+        -information.cwiseProduct(DifferenceOf(pose, prior.template_from_stage, center));
+    for (int m = 0; m < static_cast<int>(points.size()); ++m) {
+      if (points[m] < 0) continue;
+      const CloudPoint& point = cloud[points[m]];
+      const Eigen::Vector3d place = pose * point.position_in_stage_mm;
+      const Eigen::Matrix3d covariance =
+          CovarianceInTemplate(point, pose) + markers[m].covariance_mm2;
+      Eigen::Matrix<double, 3, 6> jacobian;
+      jacobian << -CrossMatrix(place - center), Eigen::Matrix3d::Identity();
+      const Eigen::Matrix<double, 6, 3> weighted =
+          jacobian.transpose() * covariance.llt().solve(Eigen::Matrix3d::Identity());
+      normal += weighted * jacobian;
+      side += weighted * (markers[m].position_mm - place);
+    }
+    const Eigen::Matrix<double, 6, 1> change = normal.ldlt().solve(side);
+    pose = TurnedAbout(center, change) * pose;
+    if (change.norm() < kStill) break;
   }
-  constexpr double kMostUncertain_rad = 0.5;
-  if (source.size() < 3 || !(WorstRotationSigma(target, weights) < kMostUncertain_rad))
-    return std::nullopt;
-  return AlignRigid(source, target, weights);
+  return pose;
+}
+
+void DropDoubtful(std::span<const CloudPoint> cloud, LabelledFrame& labelled) {
+  constexpr float kLeastMargin = 2;
+  for (std::size_t m = 0; m < labelled.points.size(); ++m)
+    if (labelled.points[m] >= 0 && cloud[labelled.points[m]].sights.size() == 1 &&
+        !(labelled.margins[m] > kLeastMargin)) {
+      labelled.points[m] = -1;
+      labelled.margins[m] = std::numeric_limits<float>::quiet_NaN();
+    }
+}
+
+void AddPlaces(std::span<const CloudPoint> cloud, LabelledFrame& labelled) {
+  if (!labelled.template_from_stage) return;
+  for (std::size_t m = 0; m < labelled.points.size(); ++m)
+    if (labelled.points[m] >= 0)
+      labelled.places[m] =
+          PlaceOf(labelled.places[m], cloud[labelled.points[m]], *labelled.template_from_stage);
 }
 
 }  // namespace articap

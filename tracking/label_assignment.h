@@ -8,14 +8,9 @@
 #include "core/point_cloud.h"
 #include "core/transforms.h"
 #include "tracking/label.h"
+#include "tracking/marker_place.h"
 
 namespace articap {
-
-// Where a marker is expected, in the frame of the template.
-struct Expectation {
-  Eigen::Vector3d position_mm;
-  double sigma_mm;  // of a coordinate
-};
 
 // How unlikely it is, twice the negative log, that a point is what a marker shows, compared with
 // its being false; and that the marker shows nothing.
@@ -23,10 +18,15 @@ struct LabelCosts {
   Eigen::MatrixXd costs;  // markers x points
   double null_cost;
 };
+struct LabelPriors {
+  double seen = 0.9;              // LabelOptions
+  double false_points = 2;        // LabelOptions
+  double seen_by_one_view = 0.1;  // part of what is seen
+};
 // `pose_sigma_mm`: what the pose may be off, SD of a coordinate.
-LabelCosts CostsOf(std::span<const Expectation> markers, std::span<const CloudPoint> cloud,
+LabelCosts CostsOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
                    const Rigid3d& template_from_stage, double pose_sigma_mm,
-                   const LabelOptions& options);
+                   const LabelPriors& priors);
 
 // Whether at most one of the two points can be right.
 bool ClaimOneDot(const CloudPoint& a, const CloudPoint& b);
@@ -38,12 +38,35 @@ std::vector<int> AssignPoints(const LabelCosts& costs, std::span<const CloudPoin
 double TotalCost(const LabelCosts& costs, const std::vector<int>& points);
 
 // By marker: the least that any other explanation costs more, as a difference of log-likelihood:
-// the marker shows another point or none, or exchanges its point with another marker.
-std::vector<float> MarginsOf(const LabelCosts& costs, const std::vector<int>& points);
+// the marker shows another point, of other dots, or none, or exchanges its point with another
+// marker.
+std::vector<float> MarginsOf(const LabelCosts& costs, std::span<const CloudPoint> cloud,
+                             const std::vector<int>& points);
 
-// template_from_stage from the labelled points, each weighted by how well its place is known.
-// Nothing from fewer than three points, or from points on a line.
-std::optional<Rigid3d> PoseOf(std::span<const Expectation> markers,
-                              std::span<const CloudPoint> cloud, const std::vector<int>& points);
+// What is known of a marker's place in the template's frame once its point is known: what a single
+// view sees is only somewhere on a ray, and where on it is still as expected. The gain of Kalman's
+// filter.
+MarkerPlace PlaceOf(const MarkerPlace& marker, const CloudPoint& point,
+                    const Rigid3d& template_from_stage);
+
+// What is known of a pose beforehand: SD of the rotation about each axis, and of the translation
+// of the middle of the expected places.
+struct PosePrior {
+  Rigid3d template_from_stage;
+  double rotation_sigma_rad;
+  double translation_sigma_mm;
+};
+
+// template_from_stage of the greatest likelihood: each labelled point by its own covariance, so
+// that what a single view sees counts across its ray, and each marker by how well its place is
+// known. By Gauss and Newton's method from the prior.
+Rigid3d PoseOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
+               const std::vector<int>& points, const PosePrior& prior);
+
+// Forgets labels of single sights that something else would explain nearly as well: such a dot is
+// easily a neighbour's, or false, where the marker itself is hidden.
+void DropDoubtful(std::span<const CloudPoint> cloud, LabelledFrame& labelled);
+// Makes the places, where markers were expected, those where they are.
+void AddPlaces(std::span<const CloudPoint> cloud, LabelledFrame& labelled);
 
 }  // namespace articap

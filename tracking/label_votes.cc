@@ -17,12 +17,15 @@ struct TrackletSample {
 };
 using Tracklet = std::vector<TrackletSample>;
 
-// Places of a frame's points within the head.
+// Places of a frame's points within the head; far away for what a single view sees, whose place is
+// not known.
 std::vector<Eigen::Vector3d> PlacesOf(const PointClouds& clouds,
                                       const std::vector<LabelledFrame>& frames, int frame) {
   std::vector<Eigen::Vector3d> places;
   for (const CloudPoint& point : clouds.frames[frame])
-    places.push_back(*frames[frame].template_from_stage * point.position_in_stage_mm);
+    places.push_back(point.sights.size() == 1
+                         ? Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity())
+                         : *frames[frame].template_from_stage * point.position_in_stage_mm);
   return places;
 }
 

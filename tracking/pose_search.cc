@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "core/alignment.h"
@@ -28,9 +29,14 @@ struct Proposal {
 
 class HeadSearch {
  public:
-  HeadSearch(std::span<const Expectation> markers, std::span<const CloudPoint> cloud,
-             const LabelOptions& options)
-      : markers_(markers), cloud_(cloud), options_(options) {}
+  HeadSearch(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
+             const LabelPriors& priors, const LabelOptions& options)
+      : markers_(markers), cloud_(cloud), priors_(priors), options_(options) {
+    for (const MarkerPlace& marker : markers)
+      sigmas_mm_.push_back(std::sqrt(marker.covariance_mm2.trace() / 3));
+    for (const CloudPoint& point : cloud)
+      if (point.sights.size() != 1) points_mm_.push_back(point.position_in_stage_mm);
+  }
 
   std::optional<FoundHead> Find() {
     for (const Triple& triple : BestTriples()) ProposeFrom(triple);
@@ -52,7 +58,7 @@ class HeadSearch {
  private:
   double Tolerance_mm(int a, int b) const {
     constexpr double kMeasurement_mm = 0.5;
-    return kSigmas * std::hypot(markers_[a].sigma_mm, markers_[b].sigma_mm) + kMeasurement_mm;
+    return kSigmas * std::hypot(sigmas_mm_[a], sigmas_mm_[b]) + kMeasurement_mm;
   }
 
   // The most rigid markers, and of their triples those that determine a pose best.
@@ -60,7 +66,7 @@ class HeadSearch {
     std::vector<int> order(markers_.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return markers_[a].sigma_mm < markers_[b].sigma_mm; });
+                     [&](int a, int b) { return sigmas_mm_[a] < sigmas_mm_[b]; });
     order.resize(std::min<std::size_t>(order.size(), kMarkersOfTriples));
     std::vector<std::pair<double, Triple>> rated;
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -81,7 +87,7 @@ class HeadSearch {
     std::array<double, 3> weights{};
     for (int i = 0; i < 3; ++i) {
       points[i] = markers_[triple[i]].position_mm;
-      weights[i] = 1 / (markers_[triple[i]].sigma_mm * markers_[triple[i]].sigma_mm);
+      weights[i] = 1 / (sigmas_mm_[triple[i]] * sigmas_mm_[triple[i]]);
     }
     return WorstRotationSigma(points, weights);
   }
@@ -89,9 +95,7 @@ class HeadSearch {
   double TemplateDistance_mm(int a, int b) const {
     return (markers_[a].position_mm - markers_[b].position_mm).norm();
   }
-  double CloudDistance_mm(int a, int b) const {
-    return (cloud_[a].position_in_stage_mm - cloud_[b].position_in_stage_mm).norm();
-  }
+  double CloudDistance_mm(int a, int b) const { return (points_mm_[a] - points_mm_[b]).norm(); }
   bool FitsTogether(int marker_a, int marker_b, int point_a, int point_b) const {
     return point_a != point_b &&
            std::abs(CloudDistance_mm(point_a, point_b) - TemplateDistance_mm(marker_a, marker_b)) <
@@ -99,7 +103,7 @@ class HeadSearch {
   }
 
   void ProposeFrom(const Triple& triple) {
-    const int count = static_cast<int>(cloud_.size());
+    const int count = static_cast<int>(points_mm_.size());
     for (int a = 0; a < count; ++a)
       for (int b = 0; b < count; ++b) {
         if (!FitsTogether(triple[0], triple[1], a, b)) continue;
@@ -116,11 +120,19 @@ class HeadSearch {
   void Propose(const Triple& markers, const Triple& points) {
     std::array<Eigen::Vector3d, 3> source, target;
     for (int i = 0; i < 3; ++i) {
-      source[i] = cloud_[points[i]].position_in_stage_mm;
+      source[i] = points_mm_[points[i]];
       target[i] = markers_[markers[i]].position_mm;
     }
     const Rigid3d pose = AlignRigid(source, target);
-    proposals_.push_back({pose, GainOf(pose)});
+    // In cost a marker found is worth about ten.
+    proposals_.push_back({pose, GainOf(pose) - CostOfAttitude(pose) / 10});
+  }
+
+  // Speakers sit as they sat when the template was learnt, more or less.
+  double CostOfAttitude(const Rigid3d& pose) const {
+    const double angle_rad = pose.rotation.angularDistance(Eigen::Quaterniond::Identity());
+    const double sigmas = angle_rad / (options_.attitude_sigma_deg * std::numbers::pi / 180);
+    return sigmas * sigmas;
   }
 
   // How many markers find a point, each counting for more the nearer it is.
@@ -128,38 +140,40 @@ class HeadSearch {
     const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
     double gain = 0;
     std::vector<Eigen::Vector3d> places;
-    places.reserve(cloud_.size());
-    for (const CloudPoint& point : cloud_)
-      places.push_back(rotation * point.position_in_stage_mm + pose.translation_mm);
-    for (const Expectation& marker : markers_) {
+    places.reserve(points_mm_.size());
+    for (const Eigen::Vector3d& point : points_mm_)
+      places.push_back(rotation * point + pose.translation_mm);
+    for (std::size_t m = 0; m < markers_.size(); ++m) {
       double least = std::numeric_limits<double>::infinity();
       for (const Eigen::Vector3d& place : places)
-        least = std::min(least, (place - marker.position_mm).squaredNorm());
-      const double reach = kSigmas * marker.sigma_mm + 1;
+        least = std::min(least, (place - markers_[m].position_mm).squaredNorm());
+      const double reach = kSigmas * sigmas_mm_[m] + 1;
       gain += std::max(0.0, 1 - least / (reach * reach));
     }
     return gain;
   }
 
-  std::optional<FoundHead> Refine(Rigid3d pose) const {
+  std::optional<FoundHead> Refine(const Rigid3d& proposed) const {
     constexpr int kRounds = 6;
-    constexpr double kStartSigma_mm = 3;
+    constexpr double kStartSigma_mm = 4;
     FoundHead head;
+    head.template_from_stage = proposed;
     double pose_sigma_mm = kStartSigma_mm;
     for (int round = 0; round < kRounds; ++round) {
-      const LabelCosts costs = CostsOf(markers_, cloud_, pose, pose_sigma_mm, options_);
+      const LabelCosts costs =
+          CostsOf(markers_, cloud_, head.template_from_stage, pose_sigma_mm, priors_);
       head.points = AssignPoints(costs, cloud_);
-      head.cost = TotalCost(costs, head.points);
-      head.template_from_stage = pose;
-      const auto better = PoseOf(markers_, cloud_, head.points);
-      if (!better) return std::nullopt;
-      pose = *better;
+      head.cost = TotalCost(costs, head.points) + CostOfAttitude(head.template_from_stage);
+      if (round + 1 == kRounds) break;
+      constexpr double kLoose_rad = 0.5, kLoose_mm = 50;
+      head.template_from_stage =
+          PoseOf(markers_, cloud_, head.points, {head.template_from_stage, kLoose_rad, kLoose_mm});
       pose_sigma_mm /= 2;
     }
     const auto count =
         std::count_if(head.points.begin(), head.points.end(), [](int point) { return point >= 0; });
-    if (static_cast<double>(count) < options_.least_share * static_cast<double>(markers_.size()))
-      return std::nullopt;
+    const double least = options_.least_share * static_cast<double>(markers_.size());
+    if (static_cast<double>(count) < std::max(3.0, least)) return std::nullopt;
     return head;
   }
 
@@ -183,8 +197,11 @@ class HeadSearch {
     return best;
   }
 
-  std::span<const Expectation> markers_;
+  std::span<const MarkerPlace> markers_;
   std::span<const CloudPoint> cloud_;
+  std::vector<double> sigmas_mm_;           // of the markers, the mean of all directions
+  std::vector<Eigen::Vector3d> points_mm_;  // of those whose place is known, stage
+  const LabelPriors& priors_;
   const LabelOptions& options_;
   std::vector<Proposal> proposals_;
   int num_proposals_ = 0;
@@ -192,10 +209,11 @@ class HeadSearch {
 
 }  // namespace
 
-std::optional<FoundHead> FindHead(std::span<const Expectation> markers,
-                                  std::span<const CloudPoint> cloud, const LabelOptions& options) {
+std::optional<FoundHead> FindHead(std::span<const MarkerPlace> markers,
+                                  std::span<const CloudPoint> cloud, const LabelPriors& priors,
+                                  const LabelOptions& options) {
   if (markers.size() < 3 || cloud.size() < 3) return std::nullopt;
-  return HeadSearch(markers, cloud, options).Find();
+  return HeadSearch(markers, cloud, priors, options).Find();
 }
 
 }  // namespace articap

@@ -7,6 +7,7 @@
 
 #include "core/point_cloud.h"
 #include "core/transforms.h"
+#include "tracking/label.h"
 #include "tracking/label_assignment.h"
 
 namespace articap {
@@ -23,7 +24,8 @@ struct FoundHead {
 // Finds the head in a cloud without knowing anything of other frames: triples of points whose
 // distances are those of three markers propose poses, the best of which are refined. Nothing where
 // fewer than `least_share` of the markers are found.
-std::optional<FoundHead> FindHead(std::span<const Expectation> markers,
-                                  std::span<const CloudPoint> cloud, const LabelOptions& options);
+std::optional<FoundHead> FindHead(std::span<const MarkerPlace> markers,
+                                  std::span<const CloudPoint> cloud, const LabelPriors& priors,
+                                  const LabelOptions& options);
 
 }  // namespace articap

@@ -4,8 +4,10 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -50,13 +52,18 @@ class Instant {
     first_of_view_.push_back(static_cast<int>(candidates_.size()));
   }
 
-  std::vector<CloudPoint> Points() {
+  std::vector<CloudPoint> Points(const std::optional<WorkingVolume>& volume) {
     for (int first = 0; first < num_views(); ++first)
       for (int second = first + 1; second < num_views(); ++second) PairViews(first, second);
-    return Choose();
+    std::set<DotKey> taken;
+    std::vector<CloudPoint> points = Choose(taken);
+    if (volume) AddSingleSights(*volume, taken, points);
+    return points;
   }
 
  private:
+  using DotKey = std::pair<int, int>;  // camera and dot
+
   int num_views() const { return static_cast<int>(projections_.size()); }
 
   void AddView(int view, const std::vector<Dot>& dots) {
@@ -185,17 +192,16 @@ class Instant {
     hypotheses_.push_back(std::move(grown));
   }
 
-  using DotKey = std::pair<int, int>;  // camera and dot
   DotKey KeyOf(int candidate) const {
     return {candidates_[candidate].camera, candidates_[candidate].dot};
   }
 
-  std::vector<CloudPoint> Choose() {
+  // `taken`: the dots of what three views or more see.
+  std::vector<CloudPoint> Choose(std::set<DotKey>& taken) {
     std::sort(hypotheses_.begin(), hypotheses_.end(), [](const Hypothesis& a, const Hypothesis& b) {
       if (a.members.size() != b.members.size()) return a.members.size() > b.members.size();
       return a.chi2_per_freedom() < b.chi2_per_freedom();
     });
-    std::set<DotKey> taken;
     std::vector<CloudPoint> points;
     for (const Hypothesis& hypothesis : hypotheses_) {
       const bool free = std::none_of(hypothesis.members.begin(), hypothesis.members.end(),
@@ -224,6 +230,30 @@ class Instant {
     return result;
   }
 
+  void AddSingleSights(const WorkingVolume& volume, const std::set<DotKey>& taken,
+                       std::vector<CloudPoint>& points) const {
+    for (int i = 0; i < static_cast<int>(candidates_.size()); ++i) {
+      const Candidate& candidate = candidates_[i];
+      const SightLine& line = candidate.line;
+      const double along_mm = line.ray_in_stage.dot(volume.center_mm - line.eye_in_stage_mm);
+      const Eigen::Vector3d nearest = line.eye_in_stage_mm + along_mm * line.ray_in_stage;
+      constexpr double kVolumes = 2;
+      if (taken.contains(KeyOf(i)) || !IsReachable(along_mm) ||
+          (nearest - volume.center_mm).norm() > kVolumes * volume.sigma_mm ||
+          !IsBeforeMirror(candidate.view, nearest))
+        continue;
+      const double across_mm =
+          along_mm * candidate.sigma_px / line.px_of_plane.norm() * std::numbers::sqrt2;
+      const Eigen::Matrix3d along = line.ray_in_stage * line.ray_in_stage.transpose();
+      CloudPoint point;
+      point.position_in_stage_mm = nearest;
+      point.covariance_mm2 = across_mm * across_mm * (Eigen::Matrix3d::Identity() - along) +
+                             volume.sigma_mm * volume.sigma_mm * along;
+      point.sights = {{projections_[candidate.view].view, candidate.dot}};
+      points.push_back(std::move(point));
+    }
+  }
+
   const CameraArray& array_;
   const std::vector<ViewProjection>& projections_;
   const ReconstructOptions& options_;
@@ -233,6 +263,30 @@ class Instant {
   std::set<std::vector<int>> known_;
   std::set<std::pair<int, int>> settled_;
 };
+
+RecordingSurvey SurveyOf(const std::vector<CloudPoint>& points, double widest_px) {
+  constexpr double kLeast_px = 0.02;
+  constexpr double kMedians = 5;
+  RecordingSurvey survey;
+  survey.match_px = widest_px;
+  if (points.empty()) return survey;
+  std::vector<double> residuals, distances;
+  std::array<std::vector<double>, 3> coordinates;
+  for (const CloudPoint& point : points) {
+    residuals.push_back(point.residual_px);
+    for (int axis = 0; axis < 3; ++axis)
+      coordinates[axis].push_back(point.position_in_stage_mm[axis]);
+  }
+  survey.match_px = std::clamp(kMedians * MedianOf(residuals), kLeast_px, widest_px);
+  WorkingVolume volume;
+  for (int axis = 0; axis < 3; ++axis) volume.center_mm[axis] = MedianOf(coordinates[axis]);
+  for (const CloudPoint& point : points)
+    distances.push_back((point.position_in_stage_mm - volume.center_mm).norm());
+  constexpr double kLeast_mm = 30;  // a few markers close together are not the whole head
+  volume.sigma_mm = std::max(kLeast_mm, 3 * MedianOf(distances));
+  survey.volume = volume;
+  return survey;
+}
 
 }  // namespace
 
@@ -254,41 +308,40 @@ Result<void> CheckOptions(const ReconstructOptions& options) {
                           {"farthest_mm", options.farthest_mm}});
 }
 
-Reconstructor::Reconstructor(const CameraArray& array, const ReconstructOptions& options)
-    : array_(array), options_(options) {
+Reconstructor::Reconstructor(const CameraArray& array, const ReconstructOptions& options,
+                             const std::optional<WorkingVolume>& volume)
+    : array_(array), options_(options), volume_(volume) {
   ARTICAP_CHECK(options_.match_px.has_value());
   for (const View& view : array_.views()) projections_.push_back(ProjectionOf(array_, view));
 }
 
 std::vector<CloudPoint> Reconstructor::operator()(std::span<const std::vector<Dot>> dots) const {
   ARTICAP_CHECK_EQ(dots.size(), array_.cameras.size());
-  return Instant(array_, projections_, options_, dots).Points();
+  return Instant(array_, projections_, options_, dots).Points(volume_);
 }
 
-double MatchOf_px(const CameraArray& array, std::span<const InstantDots> instants,
-                  const ReconstructOptions& options) {
+RecordingSurvey Survey(const CameraArray& array, std::span<const InstantDots> instants,
+                       const ReconstructOptions& options) {
   constexpr std::size_t kMostFrames = 60;
   constexpr double kWide_px = 1.5;
-  constexpr double kLeast_px = 0.02;
-  constexpr double kMedians = 5;
   ReconstructOptions wide = options;
   wide.match_px = kWide_px;
   const Reconstructor reconstruct(array, wide);
-  std::vector<double> of_many, of_two;
+  std::vector<CloudPoint> of_many, of_two;
   const std::size_t step = instants.size() / kMostFrames + 1;
   for (std::size_t frame = 0; frame < instants.size(); frame += step)
-    for (const CloudPoint& point : reconstruct(instants[frame]))
-      (point.sights.size() > 2 ? of_many : of_two).push_back(point.residual_px);
-  const double median = MedianOf(of_many.empty() ? of_two : of_many);
-  return std::isnan(median) ? kWide_px : std::clamp(kMedians * median, kLeast_px, kWide_px);
+    for (CloudPoint& point : reconstruct(instants[frame]))
+      (point.sights.size() > 2 ? of_many : of_two).push_back(std::move(point));
+  return SurveyOf(of_many.empty() ? of_two : of_many, kWide_px);
 }
 
 std::vector<std::vector<CloudPoint>> Reconstruct(const CameraArray& array,
                                                  std::span<const InstantDots> instants,
                                                  const ReconstructOptions& options) {
+  const RecordingSurvey survey = Survey(array, instants, options);
   ReconstructOptions used = options;
-  if (!used.match_px) used.match_px = MatchOf_px(array, instants, options);
-  const Reconstructor reconstruct(array, used);
+  if (!used.match_px) used.match_px = survey.match_px;
+  const Reconstructor reconstruct(array, used, survey.volume);
   std::vector<std::vector<CloudPoint>> clouds(instants.size());
   ParallelFor(static_cast<int>(instants.size()), 0,
               [&](int frame) { clouds[frame] = reconstruct(instants[frame]); });

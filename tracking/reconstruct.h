@@ -17,11 +17,17 @@ namespace articap {
 struct ReconstructOptions {
   double calibration_px = 0.05;  // what calibration is taken to be off at a dot, SD
   // How far a dot may lie from where the other views put it, whatever its noise; nothing: as far as
-  // the recording itself shows them to lie (MatchOf_px).
+  // the recording itself shows them to lie (Survey).
   std::optional<double> match_px;
   double match_sigmas = 4;  // of its noise, where that is more
   double nearest_mm = 100;  // to a camera, along the ray
   double farthest_mm = 10000;
+};
+
+// Where the markers are, roughly: the depth of what a single view sees.
+struct WorkingVolume {
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();  // stage
+  double sigma_mm = 100;
 };
 void VisitOptions(ReconstructOptions& options, OptionVisitor& visit);
 Result<void> CheckOptions(const ReconstructOptions& options);
@@ -33,11 +39,14 @@ Result<void> CheckOptions(const ReconstructOptions& options);
 // Rays of two views that meet are a hypothesis, to which every other view adds the dot nearest to
 // where it would show the point. The hypotheses that most views agree on come first, then the one
 // with the least residual; each dot is one marker's. Pairs that only two views support stay beside
-// one another as alternatives where they claim the same dot: labels decide.
+// one another as alternatives where they claim the same dot: labels decide. Every dot that no more
+// than one other view confirms is also there by itself, as far along its ray as the working volume,
+// and with its uncertainty.
 class Reconstructor {
  public:
-  // match_px must be given.
-  Reconstructor(const CameraArray& array, const ReconstructOptions& options);
+  // match_px must be given. Without a volume, single dots are left out.
+  Reconstructor(const CameraArray& array, const ReconstructOptions& options,
+                const std::optional<WorkingVolume>& volume = std::nullopt);
 
   // By camera: its dots. In a mirror's camera every dot may be seen directly or by any of its
   // mirrors, as far as the mirror's region says nothing else.
@@ -49,16 +58,22 @@ class Reconstructor {
  private:
   CameraArray array_;
   ReconstructOptions options_;
+  std::optional<WorkingVolume> volume_;
   std::vector<ViewProjection> projections_;
 };
 
 // Of one instant, by camera: the dots of its picture.
 using InstantDots = std::vector<std::vector<Dot>>;
 
-// How well views agree in a recording: five times the median residual of what three views or more
-// see (two, where nothing else is), found with a wide gate in some of its frames, px.
-double MatchOf_px(const CameraArray& array, std::span<const InstantDots> instants,
-                  const ReconstructOptions& options);
+// What some frames of a recording, reconstructed with a wide gate, say of it: from what three views
+// or more see (two, where nothing else is).
+struct RecordingSurvey {
+  double match_px = 0;  // five times the median residual
+  // The median place and three times the median distance from there; nothing where there is none.
+  std::optional<WorkingVolume> volume;
+};
+RecordingSurvey Survey(const CameraArray& array, std::span<const InstantDots> instants,
+                       const ReconstructOptions& options);
 
 // Every instant by itself, on all processors; the result does not depend on their number.
 std::vector<std::vector<CloudPoint>> Reconstruct(const CameraArray& array,

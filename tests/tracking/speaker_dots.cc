@@ -140,6 +140,13 @@ int SpeakerDots::OwnerOf(int frame, const CloudPoint& point) const {
   return owner;
 }
 
+bool SpeakerDots::HasOther(int frame, const CloudPoint& point, int marker) const {
+  return std::any_of(point.sights.begin(), point.sights.end(), [&](const DotSight& sight) {
+    const int owner = owners[frame][sight.view.camera][sight.dot];
+    return owner >= 0 && owner != marker;
+  });
+}
+
 SpeakerDots MakeSpeakerDots(const SpeakerDotsOptions& options) { return DotMaker(options).Make(); }
 
 MarkerTemplate TemplateOf(const SpeakerDots& scene, int frame) {
@@ -162,28 +169,32 @@ LabelScore ScoreOf(const SpeakerDots& scene, const PointClouds& clouds,
                    const Labelling& labelling) {
   LabelScore score;
   double squares = 0;
-  std::vector<int> wrong_run(scene.names.size(), 0);
+  std::vector<int> swap_run(scene.names.size(), 0);
   for (int frame = 0; frame < scene.num_frames(); ++frame) {
     const std::vector<int> sights = scene.NumSights(frame);
     for (std::size_t m = 0; m < scene.names.size(); ++m) {
-      if (sights[m] >= 2) ++score.seen;
+      if (sights[m] >= 1) ++score.seen;
       const int index = labelling.frames[frame].points[m];
       const bool has_label = index >= 0;
       const bool right =
           has_label && scene.OwnerOf(frame, clouds.frames[frame][index]) == static_cast<int>(m);
-      wrong_run[m] = has_label && !right ? wrong_run[m] + 1 : 0;
-      score.longest_wrong_run = std::max(score.longest_wrong_run, wrong_run[m]);
+      const bool swapped =
+          has_label && scene.HasOther(frame, clouds.frames[frame][index], static_cast<int>(m));
+      swap_run[m] = swapped ? swap_run[m] + 1 : 0;
+      score.longest_swap = std::max(score.longest_swap, swap_run[m]);
       if (!has_label) continue;
       ++score.labelled;
       if (!right) continue;
       ++score.right;
+      if (clouds.frames[frame][index].sights.size() < 2) continue;
+      ++score.measured;
       const Eigen::Vector3d error_mm =
           clouds.frames[frame][index].position_in_stage_mm - scene.positions_mm[frame][m];
       squares += error_mm.squaredNorm();
       score.worst_mm = std::max(score.worst_mm, error_mm.norm());
     }
   }
-  score.rms_mm = std::sqrt(squares / 3 / std::max(score.right, 1));
+  score.rms_mm = std::sqrt(squares / 3 / std::max(score.measured, 1));
   return score;
 }
 

@@ -43,6 +43,8 @@ struct SpeakerDots {
   std::vector<int> NumSights(int frame) const;
   // The marker that all sights of a point are of; -1 where there is none.
   int OwnerOf(int frame, const CloudPoint& point) const;
+  // Whether a sight of the point is another marker's.
+  bool HasOther(int frame, const CloudPoint& point, int marker) const;
 };
 
 SpeakerDots MakeSpeakerDots(const SpeakerDotsOptions& options);
@@ -53,11 +55,12 @@ MarkerTemplate TemplateOf(const SpeakerDots& scene, int frame);
 PointClouds CloudsOf(const SpeakerDots& scene, const ReconstructOptions& options = {});
 
 struct LabelScore {
-  int seen = 0;               // samples of which at least two views have a dot
-  int labelled = 0;           // samples that have a label
-  int right = 0;              // of these: all sights are the marker's own
-  int longest_wrong_run = 0;  // frames
-  double rms_mm = 0;          // of the right ones, a coordinate
+  int seen = 0;          // samples of which a view has a dot
+  int labelled = 0;      // samples that have a label
+  int right = 0;         // of these: all sights are the marker's own
+  int longest_swap = 0;  // frames for which a label had another marker's dot
+  int measured = 0;      // of the right ones: by two views or more
+  double rms_mm = 0;     // of those, a coordinate
   double worst_mm = 0;
 };
 LabelScore ScoreOf(const SpeakerDots& scene, const PointClouds& clouds, const Labelling& labelling);
