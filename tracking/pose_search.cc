@@ -39,7 +39,11 @@ class HeadSearch {
   }
 
   std::optional<FoundHead> Find() {
-    for (const Triple& triple : BestTriples()) ProposeFrom(triple);
+    if (IsRigidEnough()) {
+      for (const Triple& triple : BestTriples()) ProposeFrom(triple);
+    } else {
+      ProposeFromAttitudes();
+    }
     std::sort(proposals_.begin(), proposals_.end(),
               [](const Proposal& a, const Proposal& b) { return a.gain > b.gain; });
     std::vector<FoundHead> found;
@@ -56,6 +60,38 @@ class HeadSearch {
   }
 
  private:
+  // Distances tell triples of points apart only where three markers hardly move.
+  bool IsRigidEnough() const {
+    constexpr double kRigid_mm = 2;
+    constexpr int kFewest = 4;
+    return std::count_if(sigmas_mm_.begin(), sigmas_mm_.end(),
+                         [](double sigma_mm) { return sigma_mm < kRigid_mm; }) >= 3 &&
+           static_cast<int>(points_mm_.size()) >= kFewest;
+  }
+
+  // Otherwise the head is taken to sit about as it sat when the template was learnt, and any marker
+  // may be any point.
+  void ProposeFromAttitudes() {
+    constexpr std::array kTurns = {0.0, -0.5, 0.5};  // of the attitude's SD
+    const double sigma_rad = options_.attitude_sigma_deg * std::numbers::pi / 180;
+    for (const double yaw : kTurns)
+      for (const double pitch : kTurns)
+        for (const double roll : kTurns) {
+          const Eigen::Vector3d turn = sigma_rad * Eigen::Vector3d(pitch, yaw, roll);
+          Rigid3d pose;
+          if (turn.norm() > 0) pose.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+          ProposeShifts(pose);
+        }
+  }
+
+  void ProposeShifts(Rigid3d pose) {
+    for (const MarkerPlace& marker : markers_)
+      for (const Eigen::Vector3d& point : points_mm_) {
+        pose.translation_mm = marker.position_mm - pose.rotation * point;
+        Keep(pose);
+      }
+  }
+
   double Tolerance_mm(int a, int b) const {
     constexpr double kMeasurement_mm = 0.5;
     return kSigmas * std::hypot(sigmas_mm_[a], sigmas_mm_[b]) + kMeasurement_mm;
@@ -123,9 +159,12 @@ class HeadSearch {
       source[i] = points_mm_[points[i]];
       target[i] = markers_[markers[i]].position_mm;
     }
-    const Rigid3d pose = AlignRigid(source, target);
-    // In cost a marker found is worth about ten.
-    proposals_.push_back({pose, GainOf(pose) - CostOfAttitude(pose) / 10});
+    Keep(AlignRigid(source, target));
+  }
+
+  void Keep(const Rigid3d& pose) {
+    constexpr double kCostOfMarker = 10;  // about what a marker that is not found costs
+    proposals_.push_back({pose, GainOf(pose) - CostOfAttitude(pose) / kCostOfMarker});
   }
 
   // Speakers sit as they sat when the template was learnt, more or less.
@@ -135,7 +174,7 @@ class HeadSearch {
     return sigmas * sigmas;
   }
 
-  // How many markers find a point, each counting for more the nearer it is.
+  // How many markers find a point, each counting for more the nearer it is, and the more rigid.
   double GainOf(const Rigid3d& pose) const {
     const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
     double gain = 0;
@@ -147,8 +186,8 @@ class HeadSearch {
       double least = std::numeric_limits<double>::infinity();
       for (const Eigen::Vector3d& place : places)
         least = std::min(least, (place - markers_[m].position_mm).squaredNorm());
-      const double reach = kSigmas * sigmas_mm_[m] + 1;
-      gain += std::max(0.0, 1 - least / (reach * reach));
+      constexpr double kProposal_mm = 2;  // what the proposal itself is off
+      gain += std::exp(-least / 2 / (sigmas_mm_[m] * sigmas_mm_[m] + kProposal_mm * kProposal_mm));
     }
     return gain;
   }
@@ -212,7 +251,7 @@ class HeadSearch {
 std::optional<FoundHead> FindHead(std::span<const MarkerPlace> markers,
                                   std::span<const CloudPoint> cloud, const LabelPriors& priors,
                                   const LabelOptions& options) {
-  if (markers.size() < 3 || cloud.size() < 3) return std::nullopt;
+  if (markers.empty() || cloud.empty()) return std::nullopt;
   return HeadSearch(markers, cloud, priors, options).Find();
 }
 

@@ -21,9 +21,10 @@ struct FoundHead {
   double next_cost = 0;
 };
 
-// Finds the head in a cloud without knowing anything of other frames: triples of points whose
-// distances are those of three markers propose poses, the best of which are refined. Nothing where
-// fewer than `least_share` of the markers are found.
+// Finds the head in a cloud without knowing anything of other frames. Triples of points whose
+// distances are those of three rigid markers propose poses; where there are no such markers, the
+// attitude that the template was learnt in and some turns of it do, shifted so that any marker is
+// any point. The best are refined. Nothing where fewer than `least_share` of the markers are found.
 std::optional<FoundHead> FindHead(std::span<const MarkerPlace> markers,
                                   std::span<const CloudPoint> cloud, const LabelPriors& priors,
                                   const LabelOptions& options);

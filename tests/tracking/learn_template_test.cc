@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/learn_template.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/test_data.h"
+#include "tests/tracking/speaker_dots.h"
+
+namespace articap {
+namespace {
+
+MarkerTemplate LayoutOfMap(const std::string& map) {
+  return LayoutOf(ReadMarkerSet(SourceFolder() / "maps" / (map + ".toml")).value()).value();
+}
+
+SpeakerDotsOptions FourCameras(std::uint64_t seed) {
+  CameraModel model;
+  model.width = 640;
+  model.height = 480;
+  model.focal_px = 1100;
+  SpeakerDotsOptions options;
+  options.cameras = RingOfCameras(4, seed, model);
+  options.seed = seed;
+  options.num_frames = 120;
+  return options;
+}
+
+TEST(LearnTemplateTest, FromTypicalPlacesAlone) {
+  for (const std::uint64_t seed : {1, 2}) {
+    SCOPED_TRACE(seed);
+    const SpeakerDots scene = MakeSpeakerDots(FourCameras(seed));
+    const PointClouds clouds = CloudsOf(scene);
+    const std::vector<int> frames = {0};
+    const auto learnt = LearnTemplate(clouds, LayoutOfMap("spectacles30"), frames,
+                                      LikelyAttitudes(scene.cameras.array), {});
+    ASSERT_TRUE(learnt) << learnt.error().message;
+    const Labelling labelling = LabelClouds(clouds, *learnt, {});
+    const LabelScore score = ScoreOf(scene, clouds, labelling);
+    RecordProperty("seed_" + std::to_string(seed), std::to_string(score.right) + " of " +
+                                                       std::to_string(score.labelled) + " of " +
+                                                       std::to_string(score.seen));
+    EXPECT_GE(score.right, 0.998 * score.labelled);
+    EXPECT_GE(score.labelled, 0.97 * score.seen);
+  }
+}
+
+TEST(LearnTemplateTest, SixMarkersInAMirror) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    SCOPED_TRACE(seed);
+    SpeakerDotsOptions options;
+    options.cameras = MirrorSetUp(0, seed);
+    options.map = "mirror6";
+    options.rate_hz = 25;
+    options.turn_deg = 5;
+    options.most_oblique_deg = 101;
+    options.dropout = 0;
+    options.ghosts = 0;
+    options.seed = seed;
+    const SpeakerDots scene = MakeSpeakerDots(options);
+    const PointClouds clouds = CloudsOf(scene);
+    const std::vector<int> frames = {0, 10, 20, 30, 40, 50};
+    const auto learnt = LearnTemplate(clouds, LayoutOfMap("mirror6"), frames,
+                                      LikelyAttitudes(scene.cameras.array), {});
+    ASSERT_TRUE(learnt) << learnt.error().message;
+    const LabelScore score = ScoreOf(scene, clouds, LabelClouds(clouds, *learnt, {}));
+    RecordProperty("seed_" + std::to_string(seed), std::to_string(score.right) + " of " +
+                                                       std::to_string(score.labelled) + " of " +
+                                                       std::to_string(score.seen));
+    EXPECT_EQ(score.right, score.labelled);
+    EXPECT_GE(score.labelled, 0.99 * score.seen);
+  }
+}
+
+TEST(LearnTemplateTest, AMirroredLayoutIsRefused) {
+  const MarkerSet set = ReadMarkerSet(SourceFolder() / "maps/spectacles30.toml").value();
+  MarkerTemplate layout = LayoutOf(set).value();
+  EXPECT_TRUE(RefuseMirrored(layout, set));
+  for (TemplateMarker& marker : layout.markers) marker.position_mm.x() *= -1;
+  const auto refused = RefuseMirrored(layout, set);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("left and right"));
+}
+
+}  // namespace
+}  // namespace articap

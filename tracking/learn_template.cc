@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/learn_template.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/alignment.h"
+#include "core/landmarks.h"
+#include "tracking/pose_search.h"
+#include "tracking/rigidity.h"
+
+namespace articap {
+namespace {
+
+// Speakers differ from the typical face, and markers sit beside their landmarks.
+constexpr double kLayoutSigma_mm = 8;
+// What is assumed of a marker before a take has shown how it moves.
+constexpr double kFaceSigma_mm = 5;
+
+struct ReferenceFit {
+  FoundHead head;
+  int frame = -1;
+  std::vector<MarkerPlace> places;  // of the layout, bent and in the stage's axes
+};
+
+std::vector<MarkerPlace> PlacesOf(const MarkerTemplate& layout, const Eigen::Matrix3d& change) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const TemplateMarker& marker : layout.markers) middle += marker.position_mm;
+  middle /= static_cast<double>(layout.markers.size());
+  std::vector<MarkerPlace> places;
+  for (const TemplateMarker& marker : layout.markers)
+    places.push_back({change * (marker.position_mm - middle),
+                      marker.sigma_mm * marker.sigma_mm * Eigen::Matrix3d::Identity()});
+  return places;
+}
+
+LabelPriors PriorsOf(const LabelOptions& options) {
+  constexpr double kSeenByOneView = 0.3;
+  return {options.seen, options.false_points, kSeenByOneView};
+}
+
+// Bends the layout by the affine map that takes it nearest to what it found, as far as many markers
+// say so: heads are broad or long.
+void Bend(const std::vector<CloudPoint>& cloud, const FoundHead& head,
+          std::vector<MarkerPlace>& places) {
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Matrix<double, 4, 3> side = Eigen::Matrix<double, 4, 3>::Zero();
+  constexpr double kRidge = 2;  // markers' worth, at an arm of 50 mm
+  normal.diagonal() << kRidge * 2500, kRidge * 2500, kRidge * 2500, 0.01;
+  for (std::size_t m = 0; m < places.size(); ++m) {
+    if (head.points[m] < 0 || cloud[head.points[m]].sights.size() == 1) continue;
+    const Eigen::Vector4d source = places[m].position_mm.homogeneous();
+    const Eigen::Vector3d change =
+        head.template_from_stage * cloud[head.points[m]].position_in_stage_mm -
+        places[m].position_mm;
+    normal += source * source.transpose();
+    side += source * change.transpose();
+  }
+  const Eigen::Matrix<double, 4, 3> map = normal.ldlt().solve(side);
+  for (MarkerPlace& place : places)
+    place.position_mm += map.transpose() * place.position_mm.homogeneous();
+}
+
+// The layout, in one attitude and size, in one frame.
+std::optional<ReferenceFit> FitReference(const std::vector<CloudPoint>& cloud,
+                                         std::vector<MarkerPlace> places,
+                                         const LabelOptions& options) {
+  constexpr int kRounds = 3;
+  constexpr double kSharper = 0.5;  // of the variance, once the layout has been bent
+  const LabelPriors priors = PriorsOf(options);
+  ReferenceFit fit;
+  for (int round = 0; round < kRounds; ++round) {
+    auto found = FindHead(places, cloud, priors, options);
+    if (!found) return std::nullopt;
+    fit.head = std::move(*found);
+    fit.places = places;
+    Bend(cloud, fit.head, places);
+    for (MarkerPlace& place : places) place.covariance_mm2 *= kSharper;
+  }
+  return fit;
+}
+
+class ReferenceSearch {
+ public:
+  ReferenceSearch(const PointClouds& clouds, const LabelOptions& options)
+      : clouds_(clouds), options_(options) {}
+
+  void Try(const MarkerTemplate& layout, const Eigen::Matrix3d& change, int frame) {
+    auto fit = FitReference(clouds_.frames[frame], PlacesOf(layout, change), options_);
+    if (!fit) return;
+    fit->frame = frame;
+    if (!best_ || fit->head.cost < best_->head.cost) best_ = std::move(fit);
+  }
+  const std::optional<ReferenceFit>& best() const { return best_; }
+
+ private:
+  const PointClouds& clouds_;
+  const LabelOptions& options_;
+  std::optional<ReferenceFit> best_;
+};
+
+// The best of a layout, in all sizes and attitudes, in the given frames.
+std::optional<ReferenceFit> SearchReference(const PointClouds& clouds, const MarkerTemplate& layout,
+                                            std::span<const int> frames,
+                                            std::span<const Eigen::Quaterniond> attitudes,
+                                            const LabelOptions& options) {
+  constexpr double kNear_deg = 20;  // of one of the attitudes
+  constexpr std::array kSizes = {1.0, 0.88, 1.14};
+  LabelOptions near = options;
+  near.attitude_sigma_deg = std::min(near.attitude_sigma_deg, kNear_deg);
+  ReferenceSearch search(clouds, near);
+  for (const int frame : frames)
+    for (const Eigen::Quaterniond& layout_from_stage : attitudes)
+      for (const double size : kSizes)
+        search.Try(layout, size * layout_from_stage.conjugate().toRotationMatrix(), frame);
+  return search.best();
+}
+
+int CountFound(const FoundHead& head) {
+  return static_cast<int>(
+      std::count_if(head.points.begin(), head.points.end(), [](int point) { return point >= 0; }));
+}
+
+// The places that the frame itself shows; of markers that it does not, those of the bent layout.
+MarkerTemplate TemplateOf(const PointClouds& clouds, const MarkerTemplate& layout,
+                          const ReferenceFit& fit) {
+  MarkerTemplate result = layout;
+  result.learnt_from = fmt::format("frame {}", clouds.first_frame + fit.frame);
+  const auto& cloud = clouds.frames[fit.frame];
+  for (std::size_t m = 0; m < result.markers.size(); ++m) {
+    TemplateMarker& marker = result.markers[m];
+    marker.position_mm = fit.places[m].position_mm;
+    const int point = fit.head.points[m];
+    if (point < 0) continue;
+    marker.position_mm =
+        PlaceOf(fit.places[m], cloud[point], fit.head.template_from_stage).position_mm;
+    if (cloud[point].sights.size() != 1) marker.sigma_mm = kFaceSigma_mm;
+  }
+  return result;
+}
+
+Result<void> RefuseDoubtful(const std::optional<ReferenceFit>& fit, const MarkerTemplate& layout) {
+  constexpr double kClearly = 6;  // twice the difference of log-likelihood
+  const std::string names = fmt::format("{} markers of the layout", layout.markers.size());
+  if (!fit)
+    return Fail(fmt::format(
+        "the {} are found in none of the frames tried: the layout is another set's, too few "
+        "markers are seen there, or the head is turned far; give a frame in which the speaker sits "
+        "still and all markers are seen",
+        names));
+  if (fit->head.next_cost < fit->head.cost + kClearly)
+    return Fail(fmt::format(
+        "{} of the {} are found, but in another pose of the head nearly as well: say where they "
+        "are more exactly (a layout with measured positions)",
+        CountFound(fit->head), names));
+  return {};
+}
+
+double SpreadOf_mm(const std::vector<double>& values, double middle) {
+  std::vector<double> apart;
+  for (const double value : values) apart.push_back(std::abs(value - middle));
+  constexpr double kNormal = 1.4826;  // SD of a normal distribution over its median deviation
+  return kNormal * MedianOf(apart);
+}
+
+}  // namespace
+
+Result<MarkerTemplate> LayoutOf(const MarkerSet& set) {
+  MarkerTemplate layout;
+  layout.name = set.name;
+  layout.learnt_from = "typical places of landmarks";
+  for (const MarkerRole& role : set.markers) {
+    const LandmarkInfo* landmark = FindLandmark(role.landmark);
+    if (!landmark)
+      return Fail(fmt::format(
+          "marker '{}' of the map sits at no landmark, so that nobody knows where to look for it; "
+          "give its landmark in the map, or a layout file with its place",
+          role.name));
+    layout.markers.push_back({role.name, landmark->typical_mm, kLayoutSigma_mm});
+  }
+  return layout;
+}
+
+Result<void> RefuseMirrored(const MarkerTemplate& layout, const MarkerSet& set) {
+  std::vector<Eigen::Vector3d> places, typical;
+  for (const TemplateMarker& marker : layout.markers) {
+    const MarkerRole* role = set.Find(marker.name);
+    const LandmarkInfo* landmark = role ? FindLandmark(role->landmark) : nullptr;
+    if (!landmark) continue;
+    places.push_back(marker.position_mm);
+    typical.push_back(landmark->typical_mm);
+  }
+  if (places.size() >= 4 && DetectReflection(places, typical).is_reflected)
+    return Fail(
+        "the layout is mirrored: its markers lie as on a face whose left and right are exchanged; "
+        "name them by the speaker's own left and right");
+  return {};
+}
+
+std::vector<Eigen::Quaterniond> LikelyAttitudes(const CameraArray& array) {
+  std::vector<Eigen::Quaterniond> attitudes = {Eigen::Quaterniond::Identity()};
+  // A camera's x is to the right, where a speaker who faces it has the left; its y is down.
+  const Eigen::Quaterniond layout_from_cam(
+      Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
+  for (const Camera& camera : array.cameras) {
+    const Eigen::Quaterniond attitude = layout_from_cam * camera.cam_from_stage.rotation;
+    constexpr double kSame_rad = 0.3;
+    const bool is_known =
+        std::any_of(attitudes.begin(), attitudes.end(), [&](const Eigen::Quaterniond& other) {
+          return attitude.angularDistance(other) < kSame_rad;
+        });
+    if (!is_known) attitudes.push_back(attitude);
+  }
+  return attitudes;
+}
+
+Result<MarkerTemplate> LearnTemplate(const PointClouds& clouds, const MarkerTemplate& layout,
+                                     std::span<const int> frames,
+                                     std::span<const Eigen::Quaterniond> attitudes,
+                                     const LabelOptions& options) {
+  const auto fit = SearchReference(clouds, layout, frames, attitudes, options);
+  if (const auto clear = RefuseDoubtful(fit, layout); !clear) return tl::unexpected(clear.error());
+  const MarkerTemplate first = TemplateOf(clouds, layout, *fit);
+  return RefineTemplate(first, LabelClouds(clouds, first, options));
+}
+
+MarkerTemplate RefineTemplate(const MarkerTemplate& marker_template, const Labelling& labelling) {
+  constexpr double kLeastSigma_mm = 0.5;
+  constexpr std::size_t kFewest = 20;
+  MarkerTemplate refined = marker_template;
+  for (std::size_t m = 0; m < refined.markers.size(); ++m) {
+    std::array<std::vector<double>, 3> places;
+    for (const LabelledFrame& frame : labelling.frames)
+      if (frame.template_from_stage && frame.points[m] >= 0)
+        for (int axis = 0; axis < 3; ++axis)
+          places[axis].push_back(frame.places[m].position_mm[axis]);
+    if (places[0].size() < kFewest) continue;
+    TemplateMarker& marker = refined.markers[m];
+    double variance = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      marker.position_mm[axis] = MedianOf(places[axis]);
+      const double spread_mm = SpreadOf_mm(places[axis], marker.position_mm[axis]);
+      variance = std::max(variance, spread_mm * spread_mm);
+    }
+    // Speech has long tails: lips are at rest half of the time.
+    constexpr double kTails = 1.5;
+    marker.sigma_mm = std::max(kTails * std::sqrt(variance), kLeastSigma_mm);
+  }
+  return refined;
+}
+
+}  // namespace articap
