@@ -23,6 +23,7 @@ const std::vector<articap::VerbEntry>& Verbs() {
       {"info", "what is in a marker file: markers, rate, frames, gaps, units; in a calibration",
        articap::InfoCommand},
       {"convert", "between marker formats", articap::ConvertCommand},
+      {"label", "name the markers of a recording by where they sit", articap::LabelCommand},
       {"stabilize", "factor the movement of the head out", articap::StabilizeCommand},
       {"map", "propose where each marker sits, from the cloud alone", articap::MapCommand},
       {"bind", "tie a speaker's reference pose to a rig, once", articap::BindCommand},

@@ -24,7 +24,7 @@ Result<Take> ReadTake(const std::string& path, const MarkerReadOptions& options,
     return Fail(fmt::format("{}: no frame of the markers lies in the part from {:.3f} to {:.3f} s",
                             path, span ? SecondsOf(span->start) : 0.0,
                             span ? SecondsOf(span->end) : 0.0));
-  if (mirror) recording->tracks = Mirror(recording->tracks);
+  if (mirror) recording->tracks = MirrorTracks(recording->tracks);
   Take take{path, std::move(*recording), {}};
   const StageTracks& tracks = take.recording.tracks;
   take.report.stage = "read";

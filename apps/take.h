@@ -30,7 +30,7 @@ struct TimeSpan {
 };
 
 // Reads a take and refuses what cannot be a face, with the unit that its size looks like. `mirror`:
-// the recording is mirrored back, see Mirror(). `span`: only these frames of it.
+// the recording is mirrored back, see MirrorTracks(). `span`: only these frames of it.
 Result<Take> ReadTake(const std::string& path, const MarkerReadOptions& options, bool mirror,
                       const std::optional<TimeSpan>& span = {});
 

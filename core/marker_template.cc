@@ -16,11 +16,12 @@ constexpr const char* kHead =
     "# far it strays from there (standard deviation of a coordinate). Labels come from this.\n";
 
 TemplateMarker ReadMarker(const TomlReader& reader) {
-  reader.AllowOnly({"name", "position_mm", "sigma_mm"});
+  reader.AllowOnly({"name", "position_mm", "sigma_mm", "head"});
   TemplateMarker marker;
   marker.name = reader.Text("name");
   marker.position_mm = reader.Vector("position_mm");
   marker.sigma_mm = reader.Number("sigma_mm", marker.sigma_mm);
+  marker.head_reference = reader.table()["head"].value_or(false);
   if (marker.name.empty()) reader.Fault("name", "must not be empty");
   if (!marker.position_mm.allFinite()) reader.Fault("position_mm", "must be three finite numbers");
   if (!(marker.sigma_mm > 0)) reader.Fault("sigma_mm", "must be more than 0");
@@ -31,8 +32,9 @@ std::string MarkerTable(const TemplateMarker& marker) {
   const Eigen::Vector3d& p = marker.position_mm;
   return fmt::format(
       "\n[[marker]]\nname = {}\nposition_mm = [{:.3f}, {:.3f}, {:.3f}]\n"
-      "sigma_mm = {:.3f}\n",
-      QuotedToml(marker.name), p.x(), p.y(), p.z(), marker.sigma_mm);
+      "sigma_mm = {:.3f}\n{}",
+      QuotedToml(marker.name), p.x(), p.y(), p.z(), marker.sigma_mm,
+      marker.head_reference ? "head = true\n" : "");
 }
 
 }  // namespace

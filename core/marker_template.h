@@ -21,6 +21,7 @@ struct TemplateMarker {
   // How far it strays from there, SD of a coordinate: little for what sits on the skull or on
   // spectacles, some millimetres for lips; also how roughly a layout knows its place.
   double sigma_mm = 3;
+  bool head_reference = false;  // moves with the skull
 
   bool operator==(const TemplateMarker&) const = default;
 };
@@ -32,6 +33,7 @@ struct TemplateMarker {
 //   name = "Chin"
 //   position_mm = [1.2, -95.0, 60.1]
 //   sigma_mm = 5.0
+//   head = false                        # moves with the skull; optional
 struct MarkerTemplate {
   std::string name;
   std::string learnt_from;

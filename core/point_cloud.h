@@ -23,8 +23,10 @@ struct CloudPoint {
   // From the noise of the pixels; NaN where it is not known, as of a file of markers. What a single
   // view sees has a long one, along its ray: where on it, the labels will say.
   Eigen::Matrix3d covariance_mm2 = Eigen::Matrix3d::Constant(CameraSigmas::kUnknown);
-  double residual_px = 0;        // RMS of its sights; NaN where there are none
+  double residual_px = 0;        // RMS of its sights; 0 where there are less than two
+  double residual_mm = 0;        // RMS of its distances from their rays
   std::vector<DotSight> sights;  // empty where read from a file of markers
+  int column = -1;               // of that file; -1 where it was seen
 };
 
 // Markers in space before they have names: what reconstruction gives, or an unlabelled file holds.

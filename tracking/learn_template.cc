@@ -12,6 +12,7 @@
 
 #include "core/alignment.h"
 #include "core/landmarks.h"
+#include "core/parallel.h"
 #include "tracking/pose_search.h"
 #include "tracking/rigidity.h"
 
@@ -21,6 +22,7 @@ namespace {
 // Speakers differ from the typical face, and markers sit beside their landmarks.
 constexpr double kLayoutSigma_mm = 8;
 // What is assumed of a marker before a take has shown how it moves.
+constexpr double kRigidSigma_mm = 1;
 constexpr double kFaceSigma_mm = 5;
 
 struct ReferenceFit {
@@ -67,64 +69,88 @@ void Bend(const std::vector<CloudPoint>& cloud, const FoundHead& head,
     place.position_mm += map.transpose() * place.position_mm.homogeneous();
 }
 
-// The layout, in one attitude and size, in one frame.
-std::optional<ReferenceFit> FitReference(const std::vector<CloudPoint>& cloud,
-                                         std::vector<MarkerPlace> places,
-                                         const LabelOptions& options) {
-  constexpr int kRounds = 3;
-  constexpr double kSharper = 0.5;  // of the variance, once the layout has been bent
-  const LabelPriors priors = PriorsOf(options);
-  ReferenceFit fit;
+int CountFound(const FoundHead& head) {
+  return static_cast<int>(
+      std::count_if(head.points.begin(), head.points.end(), [](int point) { return point >= 0; }));
+}
+
+// Those of which more than a ray is known.
+int CountPlaced(const std::vector<CloudPoint>& cloud, const FoundHead& head) {
+  return static_cast<int>(std::count_if(head.points.begin(), head.points.end(), [&](int point) {
+    return point >= 0 && cloud[point].sights.size() != 1;
+  }));
+}
+
+// Bends the layout onto what it found and looks again, each time knowing better what to expect.
+std::optional<ReferenceFit> Improve(const std::vector<CloudPoint>& cloud, ReferenceFit fit,
+                                    const LabelOptions& options) {
+  constexpr int kRounds = 2;
+  constexpr double kSharper = 0.5;  // of the variance
   for (int round = 0; round < kRounds; ++round) {
-    auto found = FindHead(places, cloud, priors, options);
+    Bend(cloud, fit.head, fit.places);
+    for (MarkerPlace& place : fit.places) place.covariance_mm2 *= kSharper;
+    auto found = FindHead(fit.places, cloud, PriorsOf(options), options);
     if (!found) return std::nullopt;
     fit.head = std::move(*found);
-    fit.places = places;
-    Bend(cloud, fit.head, places);
-    for (MarkerPlace& place : places) place.covariance_mm2 *= kSharper;
   }
   return fit;
 }
 
-class ReferenceSearch {
- public:
-  ReferenceSearch(const PointClouds& clouds, const LabelOptions& options)
-      : clouds_(clouds), options_(options) {}
-
-  void Try(const MarkerTemplate& layout, const Eigen::Matrix3d& change, int frame) {
-    auto fit = FitReference(clouds_.frames[frame], PlacesOf(layout, change), options_);
-    if (!fit) return;
-    fit->frame = frame;
-    if (!best_ || fit->head.cost < best_->head.cost) best_ = std::move(fit);
+// The layout in all sizes and attitudes, in one frame: the ways that look best are improved, and
+// the best of these is right.
+std::optional<ReferenceFit> SearchFrame(const PointClouds& clouds, const MarkerTemplate& layout,
+                                        int frame, std::span<const Eigen::Quaterniond> attitudes,
+                                        const LabelOptions& options) {
+  constexpr std::array kSizes = {1.0, 0.88, 1.14};
+  constexpr std::size_t kImproved = 4;
+  const auto& cloud = clouds.frames[frame];
+  std::vector<ReferenceFit> fits(attitudes.size() * kSizes.size());
+  ParallelFor(static_cast<int>(fits.size()), 0, [&](int way) {
+    const auto& layout_from_stage = attitudes[way / kSizes.size()];
+    ReferenceFit& fit = fits[way];
+    fit.places = PlacesOf(
+        layout, kSizes[way % kSizes.size()] * layout_from_stage.conjugate().toRotationMatrix());
+    if (auto found = FindHead(fit.places, cloud, PriorsOf(options), options)) {
+      fit.head = std::move(*found);
+      fit.frame = frame;
+    }
+  });
+  std::erase_if(fits, [](const ReferenceFit& fit) { return fit.frame < 0; });
+  const auto is_better = [](const ReferenceFit& a, const ReferenceFit& b) {
+    return a.head.cost < b.head.cost;
+  };
+  std::stable_sort(fits.begin(), fits.end(), is_better);
+  std::optional<ReferenceFit> best;
+  for (std::size_t i = 0; i < std::min(kImproved, fits.size()); ++i) {
+    auto improved = Improve(cloud, std::move(fits[i]), options);
+    if (improved && (!best || is_better(*improved, *best))) best = std::move(improved);
   }
-  const std::optional<ReferenceFit>& best() const { return best_; }
+  return best;
+}
 
- private:
-  const PointClouds& clouds_;
-  const LabelOptions& options_;
-  std::optional<ReferenceFit> best_;
-};
-
-// The best of a layout, in all sizes and attitudes, in the given frames.
+// Of the frame that shows most markers; none is tried after one that shows nearly all markers.
 std::optional<ReferenceFit> SearchReference(const PointClouds& clouds, const MarkerTemplate& layout,
                                             std::span<const int> frames,
                                             std::span<const Eigen::Quaterniond> attitudes,
                                             const LabelOptions& options) {
   constexpr double kNear_deg = 20;  // of one of the attitudes
-  constexpr std::array kSizes = {1.0, 0.88, 1.14};
+  constexpr double kNearlyAll = 0.9;
   LabelOptions near = options;
   near.attitude_sigma_deg = std::min(near.attitude_sigma_deg, kNear_deg);
-  ReferenceSearch search(clouds, near);
-  for (const int frame : frames)
-    for (const Eigen::Quaterniond& layout_from_stage : attitudes)
-      for (const double size : kSizes)
-        search.Try(layout, size * layout_from_stage.conjugate().toRotationMatrix(), frame);
-  return search.best();
-}
-
-int CountFound(const FoundHead& head) {
-  return static_cast<int>(
-      std::count_if(head.points.begin(), head.points.end(), [](int point) { return point >= 0; }));
+  std::optional<ReferenceFit> best;
+  int most_placed = 0;
+  for (const int frame : frames) {
+    auto fit = SearchFrame(clouds, layout, frame, attitudes, near);
+    if (!fit) continue;
+    const int placed = CountPlaced(clouds.frames[frame], fit->head);
+    if (!best || placed > most_placed ||
+        (placed == most_placed && fit->head.cost < best->head.cost)) {
+      best = std::move(fit);
+      most_placed = placed;
+    }
+    if (most_placed >= kNearlyAll * static_cast<double>(layout.markers.size())) break;
+  }
+  return best;
 }
 
 // The places that the frame itself shows; of markers that it does not, those of the bent layout.
@@ -140,7 +166,8 @@ MarkerTemplate TemplateOf(const PointClouds& clouds, const MarkerTemplate& layou
     if (point < 0) continue;
     marker.position_mm =
         PlaceOf(fit.places[m], cloud[point], fit.head.template_from_stage).position_mm;
-    if (cloud[point].sights.size() != 1) marker.sigma_mm = kFaceSigma_mm;
+    if (cloud[point].sights.size() != 1)
+      marker.sigma_mm = marker.head_reference ? kRigidSigma_mm : kFaceSigma_mm;
   }
   return result;
 }
@@ -182,7 +209,8 @@ Result<MarkerTemplate> LayoutOf(const MarkerSet& set) {
           "marker '{}' of the map sits at no landmark, so that nobody knows where to look for it; "
           "give its landmark in the map, or a layout file with its place",
           role.name));
-    layout.markers.push_back({role.name, landmark->typical_mm, kLayoutSigma_mm});
+    layout.markers.push_back(
+        {role.name, landmark->typical_mm, kLayoutSigma_mm, role.head_reference});
   }
   return layout;
 }

@@ -4,7 +4,7 @@
 
 namespace articap {
 
-StageTracks Mirror(const StageTracks& tracks, int axis) {
+StageTracks MirrorTracks(const StageTracks& tracks, int axis) {
   ARTICAP_CHECK(axis >= 0 && axis < 3);
   StageTracks mirrored = tracks;
   for (int frame = 0; frame < tracks.num_frames(); ++frame)

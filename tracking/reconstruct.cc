@@ -220,13 +220,18 @@ class Instant {
     // Where the sights contradict one another more than their noise explains, the noise is larger.
     result.covariance_mm2 =
         hypothesis.point.covariance_mm2 * std::max(1.0, hypothesis.chi2_per_freedom());
-    double squares = 0;
+    double squares = 0, squares_mm2 = 0;
     for (const int member : hypothesis.members) {
       const Candidate& candidate = candidates_[member];
       result.sights.push_back({projections_[candidate.view].view, candidate.dot});
       squares += candidate.line.Residual_px(result.position_in_stage_mm)->squaredNorm();
+      squares_mm2 += candidate.line.ray_in_stage
+                         .cross(result.position_in_stage_mm - candidate.line.eye_in_stage_mm)
+                         .squaredNorm();
     }
-    result.residual_px = std::sqrt(squares / static_cast<double>(hypothesis.members.size()));
+    const auto count = static_cast<double>(hypothesis.members.size());
+    result.residual_px = std::sqrt(squares / count);
+    result.residual_mm = std::sqrt(squares_mm2 / count);
     return result;
   }
 

@@ -81,6 +81,6 @@ Result<StageResult<Stabilized>> Stabilize(const StageTracks& tracks, const Marke
 // The mirror image: one coordinate (0: x) changes its sign. For data that were filmed through a
 // mirror or written in a left-handed system, which no rotation makes a face of. Where the stage's
 // axes are declared, they are those of the mirrored data.
-StageTracks Mirror(const StageTracks& tracks, int axis = 0);
+StageTracks MirrorTracks(const StageTracks& tracks, int axis = 0);
 
 }  // namespace articap

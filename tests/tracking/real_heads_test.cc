@@ -119,7 +119,7 @@ TEST(RealHeadsTest, MirroredRealDataAreRefused) {
   ARTICAP_NEEDS_TEST_DATA("animface/jaw.trc");
   const auto recording = ReadMarkers(TestDataPath("animface/jaw.trc"));
   ASSERT_TRUE(recording);
-  const auto result = Stabilize(Mirror(recording->tracks), Map("animface"), std::nullopt);
+  const auto result = Stabilize(MirrorTracks(recording->tracks), Map("animface"), std::nullopt);
   ASSERT_FALSE(result);
   EXPECT_THAT(result.error().message, HasSubstr("--mirror"));
 }

@@ -153,7 +153,8 @@ MarkerTemplate TemplateOf(const SpeakerDots& scene, int frame) {
   MarkerTemplate result;
   for (std::size_t m = 0; m < scene.names.size(); ++m) {
     const bool is_rigid = scene.names[m].starts_with("spectacles");
-    result.markers.push_back({scene.names[m], scene.positions_mm[frame][m], is_rigid ? 0.5 : 5.0});
+    result.markers.push_back(
+        {scene.names[m], scene.positions_mm[frame][m], is_rigid ? 0.5 : 5.0, is_rigid});
   }
   return result;
 }

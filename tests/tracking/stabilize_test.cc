@@ -241,12 +241,12 @@ TEST(StabilizeRigidTest, AnotherSetIsProposedWhereTheChosenOneIsPoor) {
 TEST(StabilizeRigidTest, MirroredDataAreRefusedAndMirrorHelps) {
   const HeadScene scene = MakeHeadScene({});
   for (int axis = 0; axis < 3; ++axis) {
-    const StageTracks mirrored = Mirror(scene.tracks, axis);
+    const StageTracks mirrored = MirrorTracks(scene.tracks, axis);
     EXPECT_THAT(ErrorOf(mirrored, scene.set), HasSubstr("--mirror"));
-    EXPECT_THAT(Mirror(mirrored, axis), TracksNear(scene.tracks, 0.0));
+    EXPECT_THAT(MirrorTracks(mirrored, axis), TracksNear(scene.tracks, 0.0));
     // Mirrored back along another axis it is the same face, turned; the medians of its coordinates,
     // which the axes are built on, then differ slightly.
-    const auto result = StabilizeOrDie(Mirror(mirrored, (axis + 1) % 3), scene.set);
+    const auto result = StabilizeOrDie(MirrorTracks(mirrored, (axis + 1) % 3), scene.set);
     EXPECT_THAT(result.output.tracks,
                 TracksNear(StabilizeOrDie(scene.tracks, scene.set).output.tracks, 0.05));
   }
@@ -511,7 +511,7 @@ TEST(StabilizeNoneTest, AxesThatContradictTheFaceAreNamed) {
   set.axes.reset();
   EXPECT_THAT(StabilizeOrDie(tracks, set).report.warnings,
               Contains(HasSubstr("degrees off the axes")));
-  EXPECT_THAT(ErrorOf(Mirror(tracks, 1), DeclaredSet(StabilizationMode::kNone)),
+  EXPECT_THAT(ErrorOf(MirrorTracks(tracks, 1), DeclaredSet(StabilizationMode::kNone)),
               HasSubstr("--mirror"));
 }
 
