@@ -11,6 +11,7 @@
 #include "core/point_cloud.h"
 #include "core/result.h"
 #include "tracking/sight_line.h"
+#include "tracking/synchronize.h"
 
 namespace articap {
 
@@ -61,9 +62,6 @@ class Reconstructor {
   std::optional<WorkingVolume> volume_;
   std::vector<ViewProjection> projections_;
 };
-
-// Of one instant, by camera: the dots of its picture.
-using InstantDots = std::vector<std::vector<Dot>>;
 
 // What some frames of a recording, reconstructed with a wide gate, say of it: from what three views
 // or more see (two, where nothing else is).
