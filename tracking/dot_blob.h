@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "tracking/dot_fit.h"
+#include "tracking/dot_scan.h"
+#include "tracking/pixel_reader.h"
+
+namespace articap {
+
+// Runs that belong together: of one place that stands out.
+struct DotSeed {
+  Eigen::Vector2i min_px = Eigen::Vector2i::Zero();  // the box around them, inclusive
+  Eigen::Vector2i max_px = Eigen::Vector2i::Zero();
+  DotRun clearest;  // of its runs
+};
+
+// Joins runs of successive rows (step_y apart) that overlap and whose contrasts differ by less than
+// a factor of two (union-find). In the order of their first runs.
+class RunJoiner {
+ public:
+  void Join(const std::vector<DotRun>& runs, int step_y, std::vector<DotSeed>& seeds);
+
+ private:
+  int RootOf(int run);
+
+  std::vector<int> parents_, seed_of_root_;
+};
+
+// What a dot may look like, in pixels of the image.
+struct DotBlobLimits {
+  double largest_px = 40;  // extent along x or y
+  double least_contrast = 0.05;
+  double min_roundness = 0.4;
+  double min_area_px2 = 10;
+  double max_area_px2 = 1300;
+};
+
+// The pixels of a dot, with what can be said of it before it is fitted. The origin of coordinates
+// is the middle of the pixel at `origin_px`.
+struct DotBlob {
+  Eigen::Vector2i origin_px = Eigen::Vector2i::Zero();
+  DotModel start;
+  Eigen::Matrix2d shape_px2 = Eigen::Matrix2d::Identity();
+  bool saturated = false;
+  bool at_border = false;  // of the picture
+};
+
+// Gathers the pixels around a seed that are above half of the way from what surrounds it to what it
+// has, and measures them. Keeps its scratch.
+class DotBlobFinder {
+ public:
+  // Nothing where this is no round spot. What the fit needs is put into `pixels`: the spot and a
+  // margin around it, without what else is there.
+  std::optional<DotBlob> Find(const PixelReader& reader, const DotSeed& seed,
+                              const DotBlobLimits& limits, const PixelNoise& noise,
+                              DotPixels& pixels);
+
+ private:
+  // A window of the picture, its values, and whether each pixel is of the spot.
+  struct Patch {
+    int left = 0, top = 0, width = 0, height = 0;
+    std::vector<float> values;
+    std::vector<std::uint8_t> inside;
+
+    int Index(int x, int y) const { return (y - top) * width + x - left; }
+  };
+  struct Moments {
+    double area_px2 = 0;
+    Eigen::Vector2d mean_px = Eigen::Vector2d::Zero();  // in the picture
+    Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
+  };
+
+  // The box of the pixels that straight ways from the seed pass above the threshold.
+  bool FindExtent(const PixelReader& reader, double threshold, double largest_px,
+                  Eigen::Vector2i& middle, Eigen::Vector2i& extent) const;
+  void ReadPatch(const PixelReader& reader, const Eigen::Vector2i& middle, int reach);
+  // Marks what hangs together with a pixel above the threshold. False where it reaches the patch's
+  // border within the picture.
+  bool Grow(const PixelReader& reader, const Eigen::Vector2i& from, double threshold);
+  Moments MeasureInside() const;
+  // Of the patch without the ellipse.
+  double MedianOutside(const Moments& moments);
+  Eigen::Vector2d WeightedCenter(const Moments& moments, double background) const;
+  void GatherPixels(const PixelReader& reader, const DotBlob& blob, const PixelNoise& noise,
+                    DotPixels& pixels) const;
+
+  Patch patch_;
+  std::vector<Eigen::Vector2i> open_;
+  std::vector<float> outside_;
+};
+
+}  // namespace articap
