@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -32,6 +33,19 @@ double MarginOf(double radius_px) {
   return std::max(3.0, 0.35 * radius_px) + kEdge_px * kUsualBlur_px;
 }
 
+// Eight directions, all around with their opposites.
+const std::array<Eigen::Vector2d, 8>& HalfOfDirections() {
+  static const std::array<Eigen::Vector2d, 8> directions = [] {
+    std::array<Eigen::Vector2d, 8> all;
+    for (int i = 0; i < 8; ++i) {
+      const double angle = std::numbers::pi * i / 8;
+      all[i] = {std::cos(angle), std::sin(angle)};
+    }
+    return all;
+  }();
+  return directions;
+}
+
 DotEllipse EllipseOf(const Eigen::Vector2d& center_px, const Eigen::Matrix2d& shape_px2) {
   const Eigen::Matrix2d inverse = shape_px2.inverse();
   const double xx = std::sqrt(inverse(0, 0)), xy = inverse(0, 1) / xx;
@@ -41,6 +55,8 @@ DotEllipse EllipseOf(const Eigen::Vector2d& center_px, const Eigen::Matrix2d& sh
 }
 
 }  // namespace
+
+double LargestBlur(double radius_px) { return 0.8 + 0.3 * radius_px; }
 
 int RunJoiner::RootOf(int run) {
   while (parents_[run] != run) run = parents_[run] = parents_[parents_[run]];
@@ -83,12 +99,11 @@ void RunJoiner::Join(const std::vector<DotRun>& runs, int step_y, std::vector<Do
 std::optional<DotBlob> DotBlobFinder::Find(const PixelReader& reader, const DotSeed& seed,
                                            const DotBlobLimits& limits, const PixelNoise& noise,
                                            DotPixels& pixels) {
-  Eigen::Vector2i middle(seed.clearest.peak_x, seed.clearest.y), extent;
+  Eigen::Vector2i middle(seed.clearest.peak_x, seed.clearest.y);
   double threshold = seed.clearest.surround + seed.clearest.contrast / 2;
-  if (!FindExtent(reader, threshold, limits.largest_px, middle, extent)) return std::nullopt;
-  const int reach =
-      static_cast<int>(std::ceil(0.8 * extent.maxCoeff() + MarginOf(0.5 * extent.maxCoeff()) + 1));
-  ReadPatch(reader, middle, reach);
+  const auto reach_px = FindReach(reader, threshold, limits, middle);
+  if (!reach_px) return std::nullopt;
+  ReadPatch(reader, middle, static_cast<int>(std::ceil(*reach_px + MarginOf(*reach_px) + 2)));
   if (!Grow(reader, middle, threshold)) return std::nullopt;
   Moments moments = MeasureInside();
   if (moments.area_px2 < 3) return std::nullopt;
@@ -100,12 +115,14 @@ std::optional<DotBlob> DotBlobFinder::Find(const PixelReader& reader, const DotS
   moments = MeasureInside();
   if (moments.area_px2 < limits.min_area_px2 || moments.area_px2 > limits.max_area_px2)
     return std::nullopt;
+  if (!IsEllipse(moments)) return std::nullopt;
   // The variance of an ellipse's points is a quarter of its semi-axes' squares.
   const double filled_px2 =
       4 * std::numbers::pi * std::sqrt(std::max(0.0, moments.covariance_px2.determinant()));
   constexpr double kLeastFilled = 0.8;
   if (moments.area_px2 < kLeastFilled * filled_px2) return std::nullopt;
   if (RoundnessOf(moments.covariance_px2) < limits.min_roundness) return std::nullopt;
+  if (!HasEdge(moments, blob.start.background, threshold)) return std::nullopt;
   blob.shape_px2 = 4 * (moments.area_px2 / filled_px2) * moments.covariance_px2;
   blob.origin_px = moments.mean_px.array().round().matrix().cast<int>();
   const Eigen::Vector2d center = WeightedCenter(moments, blob.start.background);
@@ -132,32 +149,44 @@ std::optional<DotBlob> DotBlobFinder::Find(const PixelReader& reader, const DotS
   return blob;
 }
 
-bool DotBlobFinder::FindExtent(const PixelReader& reader, double threshold, double largest_px,
-                               Eigen::Vector2i& middle, Eigen::Vector2i& extent) const {
-  if (!(reader.Value(middle.x(), middle.y()) > threshold)) return false;
+std::optional<double> DotBlobFinder::FindReach(const PixelReader& reader, double threshold,
+                                               const DotBlobLimits& limits,
+                                               Eigen::Vector2i& middle) const {
   const Eigen::Vector2i size(reader.width(), reader.height());
-  const int most = static_cast<int>(largest_px) + 2;
-  // From the seed to the middle of its row and column, twice.
+  const int most = static_cast<int>(limits.largest_px) + 2;
+  const auto is_above = [&](const Eigen::Vector2i& at) {
+    return (at.array() >= 0).all() && (at.array() < size.array()).all() &&
+           reader.Value(at.x(), at.y()) > threshold;
+  };
+  if (!is_above(middle)) return std::nullopt;
   for (int pass = 0; pass < 2; ++pass)
     for (int axis = 0; axis < 2; ++axis) {
       Eigen::Vector2i low = middle, high = middle;
-      while (low[axis] > 0 && high[axis] - low[axis] <= most) {
-        --low[axis];
-        if (reader.Value(low.x(), low.y()) > threshold) continue;
-        ++low[axis];
-        break;
-      }
-      while (high[axis] + 1 < size[axis] && high[axis] - low[axis] <= most) {
-        ++high[axis];
-        if (reader.Value(high.x(), high.y()) > threshold) continue;
-        --high[axis];
-        break;
-      }
-      extent[axis] = high[axis] - low[axis] + 1;
-      if (extent[axis] > most) return false;
+      const Eigen::Vector2i step = Eigen::Vector2i::Unit(axis);
+      while (high[axis] - low[axis] <= most && is_above(low - step)) low -= step;
+      while (high[axis] - low[axis] <= most && is_above(high + step)) high += step;
+      if (high[axis] - low[axis] > most) return std::nullopt;
       middle[axis] = (low[axis] + high[axis]) / 2;
     }
-  return reader.Value(middle.x(), middle.y()) > threshold;
+  double shortest = most, longest = 0;
+  for (const Eigen::Vector2d& direction : HalfOfDirections()) {
+    const auto reach_along = [&](double sign) {
+      int steps = 0;
+      while (
+          steps <= most &&
+          is_above(middle + (sign * (steps + 1) * direction).array().round().matrix().cast<int>()))
+        ++steps;
+      return steps;
+    };
+    const int forth = reach_along(1), back = reach_along(-1);
+    const int across = forth + back + 1;
+    // A part of the dot may be hidden.
+    if (std::abs(forth - back) > 2 + 0.3 * across || across > most) return std::nullopt;
+    shortest = std::min<double>(shortest, across);
+    longest = std::max<double>(longest, across);
+  }
+  if (shortest + 1 < limits.min_roundness * (longest - 1)) return std::nullopt;
+  return longest / 2;
 }
 
 void DotBlobFinder::ReadPatch(const PixelReader& reader, const Eigen::Vector2i& middle, int reach) {
@@ -216,6 +245,28 @@ DotBlobFinder::Moments DotBlobFinder::MeasureInside() const {
           squares / count - mean * mean.transpose() + Eigen::Matrix2d::Identity() / 12};
 }
 
+bool DotBlobFinder::IsEllipse(const Moments& moments) const {
+  constexpr double kTolerance_px = 0.8;  // pixels on the edge may fall to either side
+  const Eigen::Matrix2d shape = 4 * moments.covariance_px2;
+  const double shortest_px =
+      std::sqrt(shape.trace() / 2 -
+                std::sqrt(std::max(0.0, shape.trace() * shape.trace() / 4 - shape.determinant())));
+  const double inner = std::max(0.0, 1 - kTolerance_px / shortest_px);
+  const Eigen::Matrix2d inverse = shape.inverse();
+  const Eigen::Matrix2d outer_inverse = Grown(shape, kTolerance_px).inverse();
+  double wrong = 0;
+  for (int y = 0; y < patch_.height; ++y)
+    for (int x = 0; x < patch_.width; ++x) {
+      const Eigen::Vector2d away =
+          Eigen::Vector2d(x + patch_.left, y + patch_.top) - moments.mean_px;
+      const bool is_inside = patch_.inside[y * patch_.width + x] != 0;
+      wrong +=
+          is_inside ? away.dot(outer_inverse * away) > 1 : away.dot(inverse * away) < inner * inner;
+    }
+  constexpr double kMostWrong = 0.06;
+  return wrong <= kMostWrong * moments.area_px2;
+}
+
 double DotBlobFinder::MedianOutside(const Moments& moments) {
   const Eigen::Matrix2d inverse = Grown(4 * moments.covariance_px2, kEdge_px).inverse();
   outside_.clear();
@@ -229,6 +280,25 @@ double DotBlobFinder::MedianOutside(const Moments& moments) {
   const auto middle = outside_.begin() + static_cast<std::ptrdiff_t>(outside_.size() / 2);
   std::nth_element(outside_.begin(), middle, outside_.end());
   return *middle;
+}
+
+bool DotBlobFinder::HasEdge(const Moments& moments, double background, double half) const {
+  const Eigen::Matrix2d inverse = Grown(4 * moments.covariance_px2, 2 * kEdge_px).inverse();
+  const double low = (background + half) / 2, high = half + (half - background) / 2;
+  double above_low = 0, above_high = 0;
+  for (int y = 0; y < patch_.height; ++y)
+    for (int x = 0; x < patch_.width; ++x) {
+      const float value = patch_.values[y * patch_.width + x];
+      const Eigen::Vector2d away =
+          Eigen::Vector2d(x + patch_.left, y + patch_.top) - moments.mean_px;
+      if (value <= low || away.dot(inverse * away) > 1) continue;
+      above_low += 1;
+      above_high += value > high;
+    }
+  // Between the quarters of an edge there are 1.35 standard deviations of its blur.
+  const double blur_px =
+      (std::sqrt(above_low) - std::sqrt(above_high)) / std::sqrt(std::numbers::pi) / 1.35;
+  return blur_px <= LargestBlur(std::sqrt(moments.area_px2 / std::numbers::pi));
 }
 
 Eigen::Vector2d DotBlobFinder::WeightedCenter(const Moments& moments, double background) const {

@@ -39,6 +39,10 @@ struct DotBlobLimits {
   double max_area_px2 = 1300;
 };
 
+// The most that a dot of this radius may be blurred by, SD. Bumps of light, which have no edge,
+// come out with 0.38 (a paraboloid) to 0.57 (a Gaussian) of their radius at half height.
+double LargestBlur(double radius_px);
+
 // The pixels of a dot, with what can be said of it before it is fitted. The origin of coordinates
 // is the middle of the pixel at `origin_px`.
 struct DotBlob {
@@ -74,16 +78,23 @@ class DotBlobFinder {
     Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
   };
 
-  // The box of the pixels that straight ways from the seed pass above the threshold.
-  bool FindExtent(const PixelReader& reader, double threshold, double largest_px,
-                  Eigen::Vector2i& middle, Eigen::Vector2i& extent) const;
+  // Goes to the middle of the row and the column that the seed is in, and from there outwards in
+  // sixteen directions. Returns how far it is to the last pixel above the threshold, at most;
+  // nothing where that differs too much from direction to direction for a dot. Most candidates are
+  // none, and end here.
+  std::optional<double> FindReach(const PixelReader& reader, double threshold,
+                                  const DotBlobLimits& limits, Eigen::Vector2i& middle) const;
   void ReadPatch(const PixelReader& reader, const Eigen::Vector2i& middle, int reach);
   // Marks what hangs together with a pixel above the threshold. False where it reaches the patch's
   // border within the picture.
   bool Grow(const PixelReader& reader, const Eigen::Vector2i& from, double threshold);
   Moments MeasureInside() const;
+  // Whether the pixels inside are those of an ellipse.
+  bool IsEllipse(const Moments& moments) const;
   // Of the patch without the ellipse.
   double MedianOutside(const Moments& moments);
+  // Whether the spot ends as a dot does, from the areas above the quarters of its height.
+  bool HasEdge(const Moments& moments, double background, double half) const;
   Eigen::Vector2d WeightedCenter(const Moments& moments, double background) const;
   void GatherPixels(const PixelReader& reader, const DotBlob& blob, const PixelNoise& noise,
                     DotPixels& pixels) const;

@@ -23,6 +23,10 @@ PixelValues ValuesOf(const DotDetectorOptions& options) {
   return {options.polarity == DotPolarity::kDark, options.tone == DotTone::kSrgb, *color};
 }
 
+// Of max_misfit: above it nothing can be a dot, and below it all is well.
+constexpr double kMostLeft = 4;
+constexpr double kPlain = 0.67;
+
 // The pixels of an image are not always square: lengths along x and y are divided by `scale`.
 DotBlobLimits LimitsOf(const DotDetectorOptions& options, const Eigen::Vector2d& scale,
                        double least_contrast) {
@@ -56,9 +60,10 @@ DotScanOptions ScanOptionsOf(const DotDetectorOptions& options, const Eigen::Vec
   scan.distance_y = steps(scale.y(), scan.step_y);
   // A row may pass a small dot beside its middle, where blur has taken more than half of it.
   constexpr double kBesideMiddle = 0.4;
-  constexpr double kNoiseOfTwo = 0.8;
-  scan.margin = std::max(kBesideMiddle * options.min_contrast,
-                         kNoiseOfTwo * options.sensitivity * std::sqrt(noise.VarianceAt(0.5)));
+  scan.margin = kBesideMiddle * options.min_contrast;
+  // Of four that it stands out from by chance, and of the brightest pixel of a run.
+  scan.margin_sigma = options.sensitivity;
+  scan.noise = noise;
   scan.most_runs = 20000 + 40 * options.most_dots;
   return scan;
 }
@@ -109,12 +114,13 @@ class DotDetector::Implementation {
         options_.min_contrast, options_.sensitivity * std::sqrt(report_.noise.VarianceAt(0)));
     const DotBlobLimits limits = LimitsOf(options_, scale, least_contrast);
     std::vector<Dot> dots;
+    known_.clear();
     for (const DotSeed& seed : seeds_) {
       if (static_cast<int>(dots.size()) == options_.most_dots) {
         report_.too_many = true;
         break;
       }
-      if (const auto dot = Examine(seed, limits, picture_from_image, dots)) dots.push_back(*dot);
+      if (const auto dot = Examine(seed, limits, picture_from_image)) dots.push_back(*dot);
     }
     std::sort(dots.begin(), dots.end(), [](const Dot& a, const Dot& b) {
       return std::pair(a.center_px.y(), a.center_px.x()) <
@@ -177,27 +183,24 @@ class DotDetector::Implementation {
     report_.too_many = true;
   }
 
-  static bool IsWithin(const Dot& dot, const Eigen::Vector2d& point_px) {
-    const Eigen::Vector2d away = point_px - dot.center_px;
-    return away.dot(dot.shape_px2.inverse() * away) <= 1;
+  // Whether a pixel is of a blob that has been looked at.
+  bool IsKnown(const Eigen::Vector2d& point_px) const {
+    return std::any_of(known_.begin(), known_.end(), [&](const KnownBlob& known) {
+      const Eigen::Vector2d away = point_px - known.center_px;
+      return away.dot(known.inverse_shape * away) <= 1;
+    });
   }
 
   std::optional<Dot> Examine(const DotSeed& seed, const DotBlobLimits& limits,
-                             const PictureFromImage& picture_from_image,
-                             const std::vector<Dot>& found) {
-    const auto is_known = [&](const Eigen::Vector2d& point_px) {
-      return std::any_of(found.begin(), found.end(),
-                         [&](const Dot& dot) { return IsWithin(dot, point_px); });
-    };
-    const Eigen::Vector2d at(seed.clearest.peak_x, seed.clearest.y);
-    if (is_known(picture_from_image * at)) return std::nullopt;
+                             const PictureFromImage& picture_from_image) {
+    if (IsKnown(Eigen::Vector2d(seed.clearest.peak_x, seed.clearest.y))) return std::nullopt;
     const auto blob = finder_.Find(reader_, seed, limits, report_.noise, pixels_);
-    if (!blob) return std::nullopt;
-    if (is_known(picture_from_image * blob->origin_px.cast<double>())) return std::nullopt;
+    if (!blob || IsKnown(blob->origin_px.cast<double>())) return std::nullopt;
+    known_.push_back({blob->origin_px.cast<double>(), blob->shape_px2.inverse()});
     ++report_.blobs;
     bool hidden = false;
     const auto fit = Fit(*blob, hidden);
-    if (fit) {
+    if (fit && Confirms(*fit, *blob)) {
       Dot dot = DotOf(*blob, *fit, picture_from_image);
       const Eigen::Vector2d size_px =
           Eigen::Vector2d(reader_.width(), reader_.height()).cwiseProduct(picture_from_image.scale);
@@ -208,22 +211,30 @@ class DotDetector::Implementation {
     return std::nullopt;
   }
 
-  // Robustly where a part of the dot seems to be hidden.
+  // Robustly where something seems to hide a part, or to be near.
   std::optional<DotFit> Fit(const DotBlob& blob, bool& hidden) {
     hidden = false;
     auto fit = fitter_.Fit(pixels_, blob.start, report_.noise);
-    if (fit && fit->left <= options_.max_misfit / 3) return fit;
-    DotFit start;
-    start.model = blob.start;
+    if (!fit || fit->left > kMostLeft * options_.max_misfit) return std::nullopt;
+    if (fit->left <= kPlain * options_.max_misfit) return fit;
     constexpr double kScale = 0.15;  // of the contrast
-    auto robust = fitter_.FitRobustly(pixels_, fit ? *fit : start, report_.noise, kScale);
-    constexpr double kLeastHidden = 0.03, kMostHidden = 0.4;
-    if (robust && robust->disbelieved > kLeastHidden && robust->disbelieved < kMostHidden &&
-        robust->left < options_.max_misfit / 3) {
-      hidden = true;
+    const auto robust = fitter_.FitRobustly(pixels_, *fit, report_.noise, kScale);
+    constexpr double kLeastHidden = 0.05, kMostHidden = 0.25;
+    if (robust && robust->disbelieved < kMostHidden &&
+        robust->left < kPlain * options_.max_misfit) {
+      hidden = robust->disbelieved > kLeastHidden;
       return robust;
     }
-    return fit && fit->left <= options_.max_misfit ? fit : std::nullopt;
+    return fit->left <= options_.max_misfit ? fit : std::nullopt;
+  }
+
+  // Whether the fit is one of what was seen: where the edge is not round, contrast and blur may
+  // replace one another.
+  static bool Confirms(const DotFit& fit, const DotBlob& blob) {
+    const double part = fit.model.contrast / blob.start.contrast;
+    const double radius_px = std::pow(blob.shape_px2.determinant(), 0.25);
+    return part > 0.7 && part < (blob.saturated ? 2.5 : 1.5) &&
+           fit.model.ellipse.blur_px < LargestBlur(radius_px) + 0.5;
   }
 
   bool IsDot(const Dot& dot) const {
@@ -233,6 +244,11 @@ class DotDetector::Implementation {
            dot.roundness() >= options_.min_roundness && dot.contrast >= options_.min_contrast &&
            dot.contrast >= options_.sensitivity * noise && IsWanted(dot.center_px);
   }
+
+  struct KnownBlob {
+    Eigen::Vector2d center_px;  // in the image
+    Eigen::Matrix2d inverse_shape;
+  };
 
   DotDetectorOptions options_;
   std::vector<DotRegion> regions_;
@@ -245,6 +261,7 @@ class DotDetector::Implementation {
   DotFitter fitter_;
   std::vector<DotRun> runs_;
   std::vector<DotSeed> seeds_;
+  std::vector<KnownBlob> known_;
   DotDetectorReport report_;
 };
 

@@ -13,7 +13,8 @@ enum Parameter { kX, kY, kXx, kXy, kYy, kBlur, kContrast, kBackground, kSlopeX, 
 
 // A pixel's own square has an SD of 1/sqrt(12) px, which no lens undercuts.
 constexpr double kLeastBlur_px = 0.289;
-constexpr int kMostSteps = 25;
+constexpr int kMostSteps = 8;
+constexpr int kMostRobustSteps = 2;  // at each width of the loss
 
 using Parameters = Eigen::Matrix<double, 10, 1>;
 
@@ -128,7 +129,7 @@ std::optional<DotFit> DotFitter::FitRobustly(const DotPixels& pixels, const DotF
   int free = kWithoutSlope;
   double disbelieved = 0;
   // From a wide loss, which is nearly convex, to the one wanted.
-  for (const double widened : {8.0, 4.0, 2.0, 1.0, 1.0, 1.0}) {
+  for (const double widened : {6.0, 3.0, 1.5, 1.0, 1.0}) {
     disbelieved = Downweigh(pixels, at, widened * scale);
     free = MinimiseAll(pixels, false, at, normal);
   }
@@ -195,7 +196,7 @@ double DotFitter::Downweigh(const DotPixels& pixels, const Parameters& at, doubl
         inverse_scale * ResidualAt(pixels, first, ValueAt(model, profile.inside, x, y));
     // Geman and McClure: the square root of the weight 1 / (1 + r^2)^2.
     const Lanes root = 1 / (1 + residual * residual);
-    const Lanes counts = pixels.present(first) * profile.inside;
+    const Lanes counts = pixels.present(first) * (10 * profile.inside).min(1.0f);
     belief += (counts * root * root).sum();
     all += counts.sum();
     Eigen::Map<Lanes> weight_root(&roots_[first]);
@@ -207,8 +208,9 @@ double DotFitter::Downweigh(const DotPixels& pixels, const Parameters& at, doubl
 DotFitter::Normal DotFitter::Minimise(const DotPixels& pixels, int free, bool weigh,
                                       Parameters& at) {
   Normal normal = Linearise(pixels, at, weigh);
+  const int most_steps = weigh ? kMostSteps : kMostRobustSteps;
   double damping = 1e-3;
-  for (int tried_steps = 0; tried_steps < kMostSteps; ++tried_steps, ++steps_) {
+  for (int tried = 0; tried < most_steps; ++tried, ++steps_) {
     const Eigen::VectorXd step = DampedStep(normal, free, damping);
     Parameters next = at;
     next.head(free) += step;
@@ -222,11 +224,11 @@ DotFitter::Normal DotFitter::Minimise(const DotPixels& pixels, int free, bool we
       Advance(step, normal);
       break;
     }
-    const Normal tried = Linearise(pixels, next, weigh);
+    const Normal at_next = Linearise(pixels, next, weigh);
     // Other weights change chi^2 a little.
-    if (tried(kNumParameters, kNumParameters) <= (weigh ? 1.5 : 1.0) * chi2) {
+    if (at_next(kNumParameters, kNumParameters) <= (weigh ? 1.5 : 1.0) * chi2) {
       at = next;
-      normal = tried;
+      normal = at_next;
       damping *= 0.1;
       weigh = false;
     } else {

@@ -49,7 +49,8 @@ struct DotFit {
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();  // of the centre
   double misfit = 1;  // mean square of the residuals over their variances
   double left = 0;    // root mean square of what the noise does not explain, over the contrast
-  // The part of the edge's and the inside's pixels that the robust fit does not believe, 0 to 1.
+  // The part of the pixels within the edge, and within its blur, that the robust fit does not
+  // believe, 0 to 1.
   double disbelieved = 0;
   int steps = 0;
 };

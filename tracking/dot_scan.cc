@@ -73,7 +73,8 @@ bool DotScanner::Cut(const PixelReader& reader, const DotScanOptions& options, c
     if (static_cast<int>(runs.size()) >= options.most_runs) return false;
     part.surround = SurroundOf(reader, options, part.peak_x, run.y);
     part.contrast = reader.Value(part.peak_x, run.y) - part.surround;
-    runs.push_back(part);
+    const double sigma = std::sqrt(options.noise.VarianceAt(part.surround));
+    if (part.contrast > options.margin_sigma * sigma) runs.push_back(part);
   }
   return true;
 }

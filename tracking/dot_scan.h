@@ -24,6 +24,9 @@ struct DotScanOptions {
   int distance_x = 1;  // to what a pixel is compared with
   int distance_y = 1;  // a multiple of step_y
   double margin = 0;   // by which it has to be brighter, part of the full range
+  // And by this many standard deviations of the noise of what it is compared with.
+  double margin_sigma = 0;
+  PixelNoise noise;
   int most_runs = 1000;
 };
 
