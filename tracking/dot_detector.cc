@@ -135,7 +135,10 @@ class DotDetector::Implementation {
   }
 
   const DotDetectorReport& report() const { return report_; }
-  void set_simd_level(SimdLevel level) { scanner_ = DotScanner(level); }
+  void set_simd_level(SimdLevel level) {
+    scanner_ = DotScanner(level);
+    fitter_ = DotFitter(level);
+  }
   SimdLevel simd_level() const { return scanner_.level(); }
 
  private:
@@ -230,11 +233,12 @@ class DotDetector::Implementation {
 
   // Whether the fit is one of what was seen: where the edge is not round, contrast and blur may
   // replace one another.
-  static bool Confirms(const DotFit& fit, const DotBlob& blob) {
+  bool Confirms(const DotFit& fit, const DotBlob& blob) const {
     const double part = fit.model.contrast / blob.start.contrast;
     const double radius_px = std::pow(blob.shape_px2.determinant(), 0.25);
     return part > 0.7 && part < (blob.saturated ? 2.5 : 1.5) &&
-           fit.model.ellipse.blur_px < LargestBlur(radius_px) + 0.5;
+           fit.model.ellipse.blur_px <=
+               std::min(options_.max_blur_px, LargestBlur(radius_px) + 0.5);
   }
 
   bool IsDot(const Dot& dot) const {

@@ -29,6 +29,9 @@ struct DotDetectorOptions {
   double min_diameter_px = 4;  // of the camera's picture
   double max_diameter_px = 40;
   double min_roundness = 0.45;  // shortest over longest axis of the ellipse
+  // Highlights of eyes and wet skin end more softly than dots do. SD of the fitted blur, the
+  // pixels' own in it; sharp pictures have 0.6 to 0.8, and motion adds to it.
+  double max_blur_px = 2.5;
   // A dot differs from what surrounds it by this part of the full range (of linear light, with
   // tone), and by `sensitivity` standard deviations of a pixel's noise: smaller finds fainter ones.
   double min_contrast = 0.06;

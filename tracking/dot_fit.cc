@@ -8,7 +8,6 @@
 namespace articap {
 namespace {
 
-constexpr int kLanes = Lanes::SizeAtCompileTime;
 enum Parameter { kX, kY, kXx, kXy, kYy, kBlur, kContrast, kBackground, kSlopeX, kSlopeY };
 
 // A pixel's own square has an SD of 1/sqrt(12) px, which no lens undercuts.
@@ -32,19 +31,6 @@ DotModel Unpack(const Parameters& at) {
           at[kContrast],
           at[kBackground],
           at.tail<2>()};
-}
-
-// The model at eight pixels.
-Lanes ValueAt(const DotModel& model, const Lanes& inside, const Lanes& x, const Lanes& y) {
-  const Eigen::Vector2f slope = model.slope_per_px.cast<float>();
-  return static_cast<float>(model.background) + slope.x() * x + slope.y() * y +
-         static_cast<float>(model.contrast) * inside;
-}
-
-// What is missing to the measured light; where that is saturated, too much is right.
-Lanes ResidualAt(const DotPixels& pixels, int first, const Lanes& model) {
-  const Lanes residual = pixels.value(first) - model;
-  return residual.max(0.0f) + (1 - pixels.saturated(first)) * residual.min(0.0f);
 }
 
 // Steps that would leave what a dot can be end at its border.
@@ -85,130 +71,45 @@ void Advance(const Eigen::VectorXd& step, Eigen::Matrix<double, 11, 11>& normal)
 
 }  // namespace
 
-void DotPixels::Start(int most_pixels) {
-  count_ = 0;
-  const std::size_t room = (most_pixels + kLanes - 1) / kLanes * kLanes;
-  for (std::vector<float>* values : {&x_, &y_, &value_, &saturated_, &present_})
-    if (values->size() < room) values->resize(room);
-}
-
-void DotPixels::Add(float x_px, float y_px, float value, bool saturated) {
-  x_[count_] = x_px;
-  y_[count_] = y_px;
-  value_[count_] = value;
-  saturated_[count_] = saturated ? 1.0f : 0.0f;
-  present_[count_] = 1;
-  ++count_;
-}
-
-void DotPixels::Finish() {
-  for (int i = count_; i < num_padded(); ++i)
-    x_[i] = y_[i] = value_[i] = saturated_[i] = present_[i] = 0;
-}
-
-int DotPixels::num_padded() const { return (count_ + kLanes - 1) / kLanes * kLanes; }
-
 std::optional<DotFit> DotFitter::Fit(const DotPixels& pixels, const DotModel& start,
                                      const PixelNoise& noise) {
+  pixels_ = &pixels;
   noise_ = noise;
   largest_px_ = std::sqrt(pixels.count());
   steps_ = 0;
   Parameters at = Pack(start);
   Normal normal;
-  const int free = MinimiseAll(pixels, true, at, normal);
-  return Conclude(pixels, at, normal, free);
+  const int free = MinimiseAll(Weights::kByModel, at, normal);
+  return Conclude(at, normal, free);
 }
 
 std::optional<DotFit> DotFitter::FitRobustly(const DotPixels& pixels, const DotFit& start,
                                              const PixelNoise& noise, double scale) {
+  pixels_ = &pixels;
   noise_ = noise;
   largest_px_ = std::sqrt(pixels.count());
   steps_ = 0;
   Parameters at = Pack(start.model);
   Normal normal;
   int free = kWithoutSlope;
-  double disbelieved = 0;
   // From a wide loss, which is nearly convex, to the one wanted.
   for (const double widened : {6.0, 3.0, 1.5, 1.0, 1.0}) {
-    disbelieved = Downweigh(pixels, at, widened * scale);
-    free = MinimiseAll(pixels, false, at, normal);
+    At(at, Weights::kByLoss, widened * scale * at[kContrast]);
+    free = MinimiseAll(Weights::kKept, at, normal);
   }
-  std::optional<DotFit> fit = Conclude(pixels, at, normal, free);
-  if (fit) fit->disbelieved = disbelieved;
+  std::optional<DotFit> fit = Conclude(at, normal, free);
+  if (fit) fit->disbelieved = equations_.disbelieved();
   return fit;
 }
 
-DotFitter::Normal DotFitter::Linearise(const DotPixels& pixels, const Parameters& at, bool weigh) {
-  const DotModel model = Unpack(at);
-  const int num_rows = pixels.num_padded();
-  // One more than there are, and empty: products of matrices go by fours.
-  constexpr int kColumns = kNumParameters + 2;
-  rows_.resize(static_cast<std::size_t>(num_rows) * kColumns);
-  roots_.resize(num_rows);
-  const auto contrast = static_cast<float>(model.contrast);
-  const auto read = static_cast<float>(noise_.read_variance);
-  const auto gain = static_cast<float>(noise_.gain);
-  DotProfile profile;
-  for (int first = 0; first < num_rows; first += kLanes) {
-    const Lanes x = pixels.x(first), y = pixels.y(first);
-    ProfileAt(model.ellipse, x, y, profile);
-    const Lanes value = ValueAt(model, profile.inside, x, y);
-    const Lanes residual = ResidualAt(pixels, first, value);
-    Eigen::Map<Lanes> weight_root(&roots_[first]);
-    if (weigh)
-      weight_root = pixels.present(first) / (read + gain * value.max(0.0f).min(1.0f)).sqrt();
-    // Saturated pixels that the model is above say nothing.
-    const Lanes root =
-        weight_root * (1 - pixels.saturated(first) * (1 - (1e30f * residual).min(1.0f)));
-    const auto column = [&](int index) {
-      return Eigen::Map<Lanes>(&rows_[static_cast<std::size_t>(index) * num_rows + first]);
-    };
-    const Lanes steepness = contrast * root;
-    for (int i = 0; i <= kBlur; ++i) column(i) = steepness * profile.by[i];
-    column(kContrast) = root * profile.inside;
-    column(kBackground) = root;
-    column(kSlopeX) = root * x;
-    column(kSlopeY) = root * y;
-    column(kNumParameters) = root * residual;
-    column(kNumParameters + 1).setZero();
-  }
-  const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, kColumns>> rows(rows_.data(),
-                                                                              num_rows, kColumns);
-  Eigen::Matrix<float, kColumns, kColumns> products;
-  products.leftCols<4>().noalias() = rows.transpose() * rows.leftCols<4>();
-  products.block<8, 4>(4, 4).noalias() = rows.rightCols<8>().transpose() * rows.middleCols<4>(4);
-  products.block<4, 4>(8, 8).noalias() = rows.rightCols<4>().transpose() * rows.rightCols<4>();
-  return products.topLeftCorner<kNumParameters + 1, kNumParameters + 1>()
-      .cast<double>()
-      .selfadjointView<Eigen::Lower>();
+DotFitter::Normal DotFitter::At(const Parameters& parameters, Weights weights, double scale) {
+  return equations_.At(*pixels_, Unpack(parameters), noise_, weights, scale);
 }
 
-double DotFitter::Downweigh(const DotPixels& pixels, const Parameters& at, double scale) {
-  Linearise(pixels, at, true);
-  const DotModel model = Unpack(at);
-  const auto inverse_scale = static_cast<float>(1 / (scale * std::abs(model.contrast)));
-  DotProfile profile;
-  float belief = 0, all = 0;
-  for (int first = 0; first < pixels.num_padded(); first += kLanes) {
-    const Lanes x = pixels.x(first), y = pixels.y(first);
-    ProfileAt(model.ellipse, x, y, profile);
-    const Lanes residual =
-        inverse_scale * ResidualAt(pixels, first, ValueAt(model, profile.inside, x, y));
-    // Geman and McClure: the square root of the weight 1 / (1 + r^2)^2.
-    const Lanes root = 1 / (1 + residual * residual);
-    const Lanes counts = pixels.present(first) * (10 * profile.inside).min(1.0f);
-    belief += (counts * root * root).sum();
-    all += counts.sum();
-    Eigen::Map<Lanes> weight_root(&roots_[first]);
-    weight_root *= root;
-  }
-  return all > 0 ? 1 - belief / all : 1;
-}
-
-DotFitter::Normal DotFitter::Minimise(const DotPixels& pixels, int free, bool weigh,
-                                      Parameters& at) {
-  Normal normal = Linearise(pixels, at, weigh);
-  const int most_steps = weigh ? kMostSteps : kMostRobustSteps;
+DotFitter::Normal DotFitter::Minimise(int free, Weights weights, Parameters& at) {
+  Normal normal = At(at, weights);
+  bool weighs = weights == Weights::kByModel;
+  const int most_steps = weighs ? kMostSteps : kMostRobustSteps;
   double damping = 1e-3;
   for (int tried = 0; tried < most_steps; ++tried, ++steps_) {
     const Eigen::VectorXd step = DampedStep(normal, free, damping);
@@ -217,20 +118,20 @@ DotFitter::Normal DotFitter::Minimise(const DotPixels& pixels, int free, bool we
     KeepPossible(largest_px_, next);
     const double chi2 = normal(kNumParameters, kNumParameters);
     // In units of the standard deviations that the misfit makes likely.
-    constexpr double kArrived2 = 0.01;
+    constexpr double kArrived2 = 0.02;
     const double moved2 = step.dot(normal.topLeftCorner(free, free) * step);
-    if (!(moved2 > kArrived2 * std::max(1.0, chi2 / pixels.count()))) {
+    if (!(moved2 > kArrived2 * std::max(1.0, chi2 / pixels_->count()))) {
       at = next;
       Advance(step, normal);
       break;
     }
-    const Normal at_next = Linearise(pixels, next, weigh);
+    const Normal at_next = At(next, weighs ? Weights::kByModel : Weights::kKept);
     // Other weights change chi^2 a little.
-    if (at_next(kNumParameters, kNumParameters) <= (weigh ? 1.5 : 1.0) * chi2) {
+    if (at_next(kNumParameters, kNumParameters) <= (weighs ? 1.5 : 1.0) * chi2) {
       at = next;
       normal = at_next;
       damping *= 0.1;
-      weigh = false;
+      weighs = false;
     } else {
       damping *= 10;
       if (damping > 1e8) break;
@@ -239,20 +140,20 @@ DotFitter::Normal DotFitter::Minimise(const DotPixels& pixels, int free, bool we
   return normal;
 }
 
-int DotFitter::MinimiseAll(const DotPixels& pixels, bool weigh, Parameters& at, Normal& normal) {
+int DotFitter::MinimiseAll(Weights weights, Parameters& at, Normal& normal) {
   const int free = at.tail<2>().isZero(0) ? kWithoutSlope : kNumParameters;
-  normal = Minimise(pixels, free, weigh, at);
+  normal = Minimise(free, weights, at);
   if (free == kNumParameters) return free;
   constexpr double kSupported = 12;
-  const double misfit = normal(kNumParameters, kNumParameters) / pixels.count();
+  const double misfit = normal(kNumParameters, kNumParameters) / pixels_->count();
   if (GainOfFreeing(normal, kWithoutSlope) <= kSupported * std::max(1.0, misfit)) return free;
-  normal = Minimise(pixels, kNumParameters, false, at);
+  normal = Minimise(kNumParameters, Weights::kKept, at);
   return kNumParameters;
 }
 
-std::optional<DotFit> DotFitter::Conclude(const DotPixels& pixels, const Parameters& at,
-                                          const Normal& normal, int free) const {
-  const int freedom = pixels.count() - free;
+std::optional<DotFit> DotFitter::Conclude(const Parameters& at, const Normal& normal,
+                                          int free) const {
+  const int freedom = pixels_->count() - free;
   if (freedom < 1 || !at.allFinite() || at[kContrast] <= 0) return std::nullopt;
   DotFit fit;
   fit.model = Unpack(at);

@@ -3,46 +3,11 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
 
-#include "tracking/dot_profile.h"
+#include "tracking/dot_equations.h"
 #include "tracking/pixel_noise.h"
 
 namespace articap {
-
-// The pixels that a dot is fitted to. Values are linear in the light, parts of the full range, the
-// dot brighter than what surrounds it.
-class DotPixels {
- public:
-  // Forgets what there was, and makes room.
-  void Start(int most_pixels);
-  // saturated: as bright as the file can say; the light is this, or more.
-  void Add(float x_px, float y_px, float value, bool saturated);
-  // Fills up to whole lanes, with pixels that count for nothing.
-  void Finish();
-
-  int count() const { return count_; }
-  int num_padded() const;
-  Lanes x(int first) const { return Eigen::Map<const Lanes>(&x_[first]); }
-  Lanes y(int first) const { return Eigen::Map<const Lanes>(&y_[first]); }
-  Lanes value(int first) const { return Eigen::Map<const Lanes>(&value_[first]); }
-  // 1 for saturated ones, else 0.
-  Lanes saturated(int first) const { return Eigen::Map<const Lanes>(&saturated_[first]); }
-  // 0 for what only fills up, else 1.
-  Lanes present(int first) const { return Eigen::Map<const Lanes>(&present_[first]); }
-
- private:
-  int count_ = 0;
-  std::vector<float> x_, y_, value_, saturated_, present_;
-};
-
-// What is fitted: I(p) = background + slope . p + contrast * profile(p).
-struct DotModel {
-  DotEllipse ellipse;
-  double contrast = 0;
-  double background = 0;  // at the origin of the pixels' coordinates
-  Eigen::Vector2d slope_per_px = Eigen::Vector2d::Zero();
-};
 
 struct DotFit {
   DotModel model;
@@ -66,6 +31,8 @@ struct DotFit {
 // its scratch.
 class DotFitter {
  public:
+  explicit DotFitter(SimdLevel level = BestSimdLevel()) : equations_(level) {}
+
   std::optional<DotFit> Fit(const DotPixels& pixels, const DotModel& start,
                             const PixelNoise& noise);
 
@@ -76,25 +43,21 @@ class DotFitter {
                                     const PixelNoise& noise, double scale);
 
  private:
-  static constexpr int kNumParameters = 10;  // six of the ellipse, contrast, background, slope
+  static constexpr int kNumParameters = DotEquations::kNumParameters;
   static constexpr int kWithoutSlope = 8;
   using Parameters = Eigen::Matrix<double, kNumParameters, 1>;
-  // J^T W J, J^T W r and r^T W r, J being the Jacobian and r the residuals.
-  using Normal = Eigen::Matrix<double, kNumParameters + 1, kNumParameters + 1>;
+  using Normal = DotEquations::Normal;
+  using Weights = DotEquations::Weights;
 
-  // Sets the weights too if they shall be those of the model there.
-  Normal Linearise(const DotPixels& pixels, const Parameters& at, bool weigh);
-  // Times what the loss believes of each pixel; returns the part of the dot that it does not.
-  double Downweigh(const DotPixels& pixels, const Parameters& at, double scale);
-  // Over the first `free` parameters. weigh: by the model after the first step, else as it is.
-  Normal Minimise(const DotPixels& pixels, int free, bool weigh, Parameters& at);
+  Normal At(const Parameters& parameters, Weights weights, double scale = 1);
+  // Over the first `free` parameters. kByModel: weights are of the model after the first step.
+  Normal Minimise(int free, Weights weights, Parameters& at);
   // Adds the slope where it is there; returns how many parameters are free.
-  int MinimiseAll(const DotPixels& pixels, bool weigh, Parameters& at, Normal& normal);
-  std::optional<DotFit> Conclude(const DotPixels& pixels, const Parameters& at,
-                                 const Normal& normal, int free) const;
+  int MinimiseAll(Weights weights, Parameters& at, Normal& normal);
+  std::optional<DotFit> Conclude(const Parameters& at, const Normal& normal, int free) const;
 
-  std::vector<float> rows_;   // Jacobian and residuals times the root of the weights, by columns
-  std::vector<float> roots_;  // of the weights
+  DotEquations equations_;
+  const DotPixels* pixels_ = nullptr;  // during a fit
   PixelNoise noise_;
   double largest_px_ = 0;  // that the pixels can show
   int steps_ = 0;

@@ -17,6 +17,8 @@ void VisitOptions(DotDetectorOptions& options, OptionVisitor& visit) {
   visit("max_diameter_px", options.max_diameter_px, "larger spots are no dots; px");
   visit("min_roundness", options.min_roundness,
         "shortest over longest axis of a dot, at least; 0 to 1");
+  visit("max_blur_px", options.max_blur_px,
+        "softer spots are highlights, not dots; standard deviation of the blur, px");
   visit("min_contrast", options.min_contrast,
         "difference of a dot from what surrounds it, at least; part of the full range");
   visit("sensitivity", options.sensitivity,
@@ -40,6 +42,7 @@ void VisitOptions(DotDetectorOptions& options, OptionVisitor& visit) {
 Result<void> CheckOptions(const DotDetectorOptions& options) {
   if (const auto checked = RequirePositive({{"min_diameter_px", options.min_diameter_px},
                                             {"max_diameter_px", options.max_diameter_px},
+                                            {"max_blur_px", options.max_blur_px},
                                             {"min_contrast", options.min_contrast},
                                             {"sensitivity", options.sensitivity},
                                             {"max_misfit", options.max_misfit},

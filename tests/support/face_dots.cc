@@ -122,26 +122,27 @@ std::vector<FaceDotPicture> RenderFaceDots(const FaceDotOptions& options) {
       (is_clear ? picture.clear : picture.doubtful).push_back(middle);
     }
     for (const Disc& stud : DiscsOf(rig, on_spectacles, parameters))
-      picture.doubtful.push_back(camera.Project(stud.center_mm));
+      picture.studs.push_back(camera.Project(stud.center_mm));
     pictures.push_back(std::move(picture));
   }
   return pictures;
 }
 
 void DotScore::Add(const FaceDotPicture& picture, const std::vector<Eigen::Vector2d>& points) {
-  constexpr double kSame_px = 4;
+  constexpr double kSame_px = 4, kSameStud_px = 9;
   std::vector<bool> taken(points.size());
-  const auto take_near = [&](const Eigen::Vector2d& middle) {
+  const auto take_near = [&](const Eigen::Vector2d& middle, double within_px) {
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (!taken[i] && (points[i] - middle).norm() <= kSame_px) {
+      if (!taken[i] && (points[i] - middle).norm() <= within_px) {
         taken[i] = true;
         return true;
       }
     return false;
   };
   clear += static_cast<int>(picture.clear.size());
-  for (const Eigen::Vector2d& middle : picture.clear) found += take_near(middle);
-  for (const Eigen::Vector2d& middle : picture.doubtful) take_near(middle);
+  for (const Eigen::Vector2d& middle : picture.clear) found += take_near(middle, kSame_px);
+  for (const Eigen::Vector2d& middle : picture.doubtful) take_near(middle, kSame_px);
+  for (const Eigen::Vector2d& middle : picture.studs) take_near(middle, kSameStud_px);
   wrong += static_cast<int>(std::count(taken.begin(), taken.end(), false));
 }
 

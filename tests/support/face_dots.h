@@ -16,8 +16,10 @@ struct FaceDotPicture {
   Image image;
   // Middles of the dots that are wholly to be seen, at no more than 60 degrees.
   std::vector<Eigen::Vector2d> clear;
-  // Of those that are to be seen in part or aslant, and of the studs: found or not, both is right.
+  // Of those that are to be seen in part or aslant: found or not, both is right.
   std::vector<Eigen::Vector2d> doubtful;
+  // Near the studs: the same.
+  std::vector<Eigen::Vector2d> studs;
 };
 
 struct FaceDotOptions {
