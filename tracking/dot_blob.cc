@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/dot_blob.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace articap {
+namespace {
+
+// A start for the fit; lenses and pixels together blur by about this.
+constexpr double kUsualBlur_px = 0.75;
+// What the edge reaches outwards.
+constexpr double kEdge_px = 2.5;
+
+double RoundnessOf(const Eigen::Matrix2d& shape) {
+  const double mean = shape.trace() / 2;
+  const double apart = std::sqrt(std::max(0.0, mean * mean - shape.determinant()));
+  return std::sqrt(std::max(0.0, mean - apart) / (mean + apart));
+}
+
+// The ellipse with its border moved outwards; exact for circles.
+Eigen::Matrix2d Grown(const Eigen::Matrix2d& shape, double by_px) {
+  const double radius_px = std::pow(shape.determinant(), 0.25);
+  return shape + by_px * (2 * radius_px + by_px) * Eigen::Matrix2d::Identity();
+}
+
+// How much plain surface around a dot is fitted with it: for its level, and its slope.
+double MarginOf(double radius_px) {
+  return std::max(3.0, 0.35 * radius_px) + kEdge_px * kUsualBlur_px;
+}
+
+// Eight directions, all around with their opposites.
+const std::array<Eigen::Vector2d, 8>& HalfOfDirections() {
+  static const std::array<Eigen::Vector2d, 8> directions = [] {
+    std::array<Eigen::Vector2d, 8> all;
+    for (int i = 0; i < 8; ++i) {
+      const double angle = std::numbers::pi * i / 8;
+      all[i] = {std::cos(angle), std::sin(angle)};
+    }
+    return all;
+  }();
+  return directions;
+}
+
+DotEllipse EllipseOf(const Eigen::Vector2d& center_px, const Eigen::Matrix2d& shape_px2) {
+  const Eigen::Matrix2d inverse = shape_px2.inverse();
+  const double xx = std::sqrt(inverse(0, 0)), xy = inverse(0, 1) / xx;
+  const double yy = std::sqrt(inverse(1, 1) - xy * xy);
+  return {center_px.cast<float>(), static_cast<float>(xx), static_cast<float>(xy),
+          static_cast<float>(yy), static_cast<float>(kUsualBlur_px)};
+}
+
+}  // namespace
+
+double LargestBlur(double radius_px) { return 0.8 + 0.3 * radius_px; }
+
+int RunJoiner::RootOf(int run) {
+  while (parents_[run] != run) run = parents_[run] = parents_[parents_[run]];
+  return run;
+}
+
+void RunJoiner::Join(const std::vector<DotRun>& runs, int step_y, std::vector<DotSeed>& seeds) {
+  const int count = static_cast<int>(runs.size());
+  parents_.resize(count);
+  std::iota(parents_.begin(), parents_.end(), 0);
+  int above = 0;  // the first run of the row before that may still touch
+  for (int i = 0; i < count; ++i) {
+    const DotRun& run = runs[i];
+    while (above < i && (runs[above].y < run.y - step_y ||
+                         (runs[above].y == run.y - step_y && runs[above].end_x < run.begin_x)))
+      ++above;
+    for (int j = above; j < i && runs[j].y == run.y - step_y && runs[j].begin_x <= run.end_x; ++j) {
+      const float larger = std::max(runs[j].contrast, run.contrast);
+      if (runs[j].contrast < larger / 2 || run.contrast < larger / 2) continue;
+      const int first = RootOf(j), second = RootOf(i);
+      parents_[std::max(first, second)] = std::min(first, second);
+    }
+  }
+  seeds.clear();
+  seed_of_root_.assign(count, -1);
+  for (int i = 0; i < count; ++i) {
+    const DotRun& run = runs[i];
+    int& index = seed_of_root_[RootOf(i)];
+    if (index < 0) {
+      index = static_cast<int>(seeds.size());
+      seeds.push_back({{run.begin_x, run.y}, {run.end_x - 1, run.y}, run});
+    }
+    DotSeed& seed = seeds[index];
+    seed.min_px = seed.min_px.cwiseMin(Eigen::Vector2i(run.begin_x, run.y));
+    seed.max_px = seed.max_px.cwiseMax(Eigen::Vector2i(run.end_x - 1, run.y));
+    if (run.contrast > seed.clearest.contrast) seed.clearest = run;
+  }
+}
+
+std::optional<DotBlob> DotBlobFinder::Find(const PixelReader& reader, const DotSeed& seed,
+                                           const DotBlobLimits& limits, const PixelNoise& noise,
+                                           DotPixels& pixels) {
+  Eigen::Vector2i middle(seed.clearest.peak_x, seed.clearest.y);
+  double threshold = seed.clearest.surround + seed.clearest.contrast / 2;
+  const auto reach_px = FindReach(reader, threshold, limits, middle);
+  if (!reach_px) return std::nullopt;
+  ReadPatch(reader, middle, static_cast<int>(std::ceil(*reach_px + MarginOf(*reach_px) + 2)));
+  if (!Grow(reader, middle, threshold)) return std::nullopt;
+  Moments moments = MeasureInside();
+  if (moments.area_px2 < 3) return std::nullopt;
+  // Once more, with what is around the whole of it.
+  DotBlob blob;
+  blob.start.background = MedianOutside(moments);
+  threshold = (reader.Value(middle.x(), middle.y()) + blob.start.background) / 2;
+  if (!Grow(reader, middle, threshold)) return std::nullopt;
+  moments = MeasureInside();
+  if (moments.area_px2 < limits.min_area_px2 || moments.area_px2 > limits.max_area_px2)
+    return std::nullopt;
+  if (!IsEllipse(moments)) return std::nullopt;
+  // The variance of an ellipse's points is a quarter of its semi-axes' squares.
+  const double filled_px2 =
+      4 * std::numbers::pi * std::sqrt(std::max(0.0, moments.covariance_px2.determinant()));
+  constexpr double kLeastFilled = 0.8;
+  if (moments.area_px2 < kLeastFilled * filled_px2) return std::nullopt;
+  if (RoundnessOf(moments.covariance_px2) < limits.min_roundness) return std::nullopt;
+  if (!HasEdge(moments, blob.start.background, threshold)) return std::nullopt;
+  blob.shape_px2 = 4 * (moments.area_px2 / filled_px2) * moments.covariance_px2;
+  blob.origin_px = moments.mean_px.array().round().matrix().cast<int>();
+  const Eigen::Vector2d center = WeightedCenter(moments, blob.start.background);
+  blob.start.ellipse = EllipseOf(center - blob.origin_px.cast<double>(), blob.shape_px2);
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < patch_.inside.size(); ++i)
+    if (patch_.inside[i] != 0) {
+      sum += patch_.values[i];
+      ++count;
+    }
+  // The edge's pixels, half of which are of the spot, are darker.
+  constexpr double kEdgesShare = 1.1;
+  blob.start.contrast = kEdgesShare * (sum / count - blob.start.background);
+  if (blob.start.contrast < limits.least_contrast) return std::nullopt;
+  GatherPixels(reader, blob, noise, pixels);
+  for (int y = patch_.top; y < patch_.top + patch_.height; ++y)
+    for (int x = patch_.left; x < patch_.left + patch_.width; ++x)
+      if (patch_.inside[patch_.Index(x, y)] != 0) {
+        blob.saturated = blob.saturated || reader.IsSaturated(x, y);
+        blob.at_border = blob.at_border || x == 0 || y == 0 || x == reader.width() - 1 ||
+                         y == reader.height() - 1;
+      }
+  return blob;
+}
+
+std::optional<double> DotBlobFinder::FindReach(const PixelReader& reader, double threshold,
+                                               const DotBlobLimits& limits,
+                                               Eigen::Vector2i& middle) const {
+  const Eigen::Vector2i size(reader.width(), reader.height());
+  const int most = static_cast<int>(limits.largest_px) + 2;
+  const auto is_above = [&](const Eigen::Vector2i& at) {
+    return (at.array() >= 0).all() && (at.array() < size.array()).all() &&
+           reader.Value(at.x(), at.y()) > threshold;
+  };
+  if (!is_above(middle)) return std::nullopt;
+  for (int pass = 0; pass < 2; ++pass)
+    for (int axis = 0; axis < 2; ++axis) {
+      Eigen::Vector2i low = middle, high = middle;
+      const Eigen::Vector2i step = Eigen::Vector2i::Unit(axis);
+      while (high[axis] - low[axis] <= most && is_above(low - step)) low -= step;
+      while (high[axis] - low[axis] <= most && is_above(high + step)) high += step;
+      if (high[axis] - low[axis] > most) return std::nullopt;
+      middle[axis] = (low[axis] + high[axis]) / 2;
+    }
+  double shortest = most, longest = 0;
+  for (const Eigen::Vector2d& direction : HalfOfDirections()) {
+    const auto reach_along = [&](double sign) {
+      int steps = 0;
+      while (
+          steps <= most &&
+          is_above(middle + (sign * (steps + 1) * direction).array().round().matrix().cast<int>()))
+        ++steps;
+      return steps;
+    };
+    const int forth = reach_along(1), back = reach_along(-1);
+    const int across = forth + back + 1;
+    // A part of the dot may be hidden.
+    if (std::abs(forth - back) > 2 + 0.3 * across || across > most) return std::nullopt;
+    shortest = std::min<double>(shortest, across);
+    longest = std::max<double>(longest, across);
+  }
+  if (shortest + 1 < limits.min_roundness * (longest - 1)) return std::nullopt;
+  return longest / 2;
+}
+
+void DotBlobFinder::ReadPatch(const PixelReader& reader, const Eigen::Vector2i& middle, int reach) {
+  patch_.left = std::max(0, middle.x() - reach);
+  patch_.top = std::max(0, middle.y() - reach);
+  patch_.width = std::min(reader.width(), middle.x() + reach + 1) - patch_.left;
+  patch_.height = std::min(reader.height(), middle.y() + reach + 1) - patch_.top;
+  patch_.values.resize(static_cast<std::size_t>(patch_.width) * patch_.height);
+  for (int y = 0; y < patch_.height; ++y)
+    reader.ReadValues(patch_.left, patch_.top + y, patch_.width,
+                      &patch_.values[static_cast<std::size_t>(y) * patch_.width]);
+}
+
+bool DotBlobFinder::Grow(const PixelReader& reader, const Eigen::Vector2i& from, double threshold) {
+  const int right = patch_.left + patch_.width - 1, bottom = patch_.top + patch_.height - 1;
+  patch_.inside.assign(patch_.values.size(), 0);
+  open_.clear();
+  const auto try_at = [&](int x, int y) {
+    const int index = patch_.Index(x, y);
+    if (patch_.inside[index] != 0 || !(patch_.values[index] > threshold)) return;
+    patch_.inside[index] = 1;
+    open_.emplace_back(x, y);
+  };
+  try_at(from.x(), from.y());
+  while (!open_.empty()) {
+    const Eigen::Vector2i at = open_.back();
+    open_.pop_back();
+    if (at.x() > patch_.left) try_at(at.x() - 1, at.y());
+    if (at.x() < right) try_at(at.x() + 1, at.y());
+    if (at.y() > patch_.top) try_at(at.x(), at.y() - 1);
+    if (at.y() < bottom) try_at(at.x(), at.y() + 1);
+    const bool leaves_patch = (at.x() == patch_.left && at.x() > 0) ||
+                              (at.y() == patch_.top && at.y() > 0) ||
+                              (at.x() == right && at.x() < reader.width() - 1) ||
+                              (at.y() == bottom && at.y() < reader.height() - 1);
+    if (leaves_patch) return false;
+  }
+  return true;
+}
+
+DotBlobFinder::Moments DotBlobFinder::MeasureInside() const {
+  double count = 0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (int y = 0; y < patch_.height; ++y)
+    for (int x = 0; x < patch_.width; ++x)
+      if (patch_.inside[y * patch_.width + x] != 0) {
+        const Eigen::Vector2d at(x, y);
+        count += 1;
+        sum += at;
+        squares += at * at.transpose();
+      }
+  if (count == 0) return {};
+  const Eigen::Vector2d mean = sum / count;
+  return {count, mean + Eigen::Vector2d(patch_.left, patch_.top),
+          squares / count - mean * mean.transpose() + Eigen::Matrix2d::Identity() / 12};
+}
+
+bool DotBlobFinder::IsEllipse(const Moments& moments) const {
+  constexpr double kTolerance_px = 0.8;  // pixels on the edge may fall to either side
+  const Eigen::Matrix2d shape = 4 * moments.covariance_px2;
+  const double shortest_px =
+      std::sqrt(shape.trace() / 2 -
+                std::sqrt(std::max(0.0, shape.trace() * shape.trace() / 4 - shape.determinant())));
+  const double inner = std::max(0.0, 1 - kTolerance_px / shortest_px);
+  const Eigen::Matrix2d inverse = shape.inverse();
+  const Eigen::Matrix2d outer_inverse = Grown(shape, kTolerance_px).inverse();
+  double wrong = 0;
+  for (int y = 0; y < patch_.height; ++y)
+    for (int x = 0; x < patch_.width; ++x) {
+      const Eigen::Vector2d away =
+          Eigen::Vector2d(x + patch_.left, y + patch_.top) - moments.mean_px;
+      const bool is_inside = patch_.inside[y * patch_.width + x] != 0;
+      wrong +=
+          is_inside ? away.dot(outer_inverse * away) > 1 : away.dot(inverse * away) < inner * inner;
+    }
+  constexpr double kMostWrong = 0.06;
+  return wrong <= kMostWrong * moments.area_px2;
+}
+
+double DotBlobFinder::MedianOutside(const Moments& moments) {
+  const Eigen::Matrix2d inverse = Grown(4 * moments.covariance_px2, kEdge_px).inverse();
+  outside_.clear();
+  for (int y = 0; y < patch_.height; ++y)
+    for (int x = 0; x < patch_.width; ++x) {
+      const Eigen::Vector2d away =
+          Eigen::Vector2d(x + patch_.left, y + patch_.top) - moments.mean_px;
+      if (away.dot(inverse * away) > 1) outside_.push_back(patch_.values[y * patch_.width + x]);
+    }
+  if (outside_.empty()) return 0;
+  const auto middle = outside_.begin() + static_cast<std::ptrdiff_t>(outside_.size() / 2);
+  std::nth_element(outside_.begin(), middle, outside_.end());
+  return *middle;
+}
+
+bool DotBlobFinder::HasEdge(const Moments& moments, double background, double half) const {
+  const Eigen::Matrix2d inverse = Grown(4 * moments.covariance_px2, 2 * kEdge_px).inverse();
+  const double low = (background + half) / 2, high = half + (half - background) / 2;
+  double above_low = 0, above_high = 0;
+  for (int y = 0; y < patch_.height; ++y)
+    for (int x = 0; x < patch_.width; ++x) {
+      const float value = patch_.values[y * patch_.width + x];
+      const Eigen::Vector2d away =
+          Eigen::Vector2d(x + patch_.left, y + patch_.top) - moments.mean_px;
+      if (value <= low || away.dot(inverse * away) > 1) continue;
+      above_low += 1;
+      above_high += value > high;
+    }
+  // Between the quarters of an edge there are 1.35 standard deviations of its blur.
+  const double blur_px =
+      (std::sqrt(above_low) - std::sqrt(above_high)) / std::sqrt(std::numbers::pi) / 1.35;
+  return blur_px <= LargestBlur(std::sqrt(moments.area_px2 / std::numbers::pi));
+}
+
+Eigen::Vector2d DotBlobFinder::WeightedCenter(const Moments& moments, double background) const {
+  const Eigen::Matrix2d inverse = Grown(4 * moments.covariance_px2, 1).inverse();
+  double weights = 0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int y = 0; y < patch_.height; ++y)
+    for (int x = 0; x < patch_.width; ++x) {
+      const Eigen::Vector2d away =
+          Eigen::Vector2d(x + patch_.left, y + patch_.top) - moments.mean_px;
+      const double light = patch_.values[y * patch_.width + x] - background;
+      if (light <= 0 || away.dot(inverse * away) > 1) continue;
+      const double weight = light * std::sqrt(light);
+      weights += weight;
+      sum += weight * away;
+    }
+  return weights > 0 ? Eigen::Vector2d(moments.mean_px + sum / weights) : moments.mean_px;
+}
+
+void DotBlobFinder::GatherPixels(const PixelReader& reader, const DotBlob& blob,
+                                 const PixelNoise& noise, DotPixels& pixels) const {
+  const double radius_px = std::pow(blob.shape_px2.determinant(), 0.25);
+  const Eigen::Matrix2d window = Grown(blob.shape_px2, MarginOf(radius_px)).inverse();
+  const Eigen::Matrix2d own = Grown(blob.shape_px2, kEdge_px).inverse();
+  // A slope of light stays below this, other things do not.
+  const double background = blob.start.background;
+  const double foreign =
+      std::max(6 * std::sqrt(noise.VarianceAt(background)), 0.3 * blob.start.contrast);
+  const Eigen::Vector2d center =
+      blob.origin_px.cast<double>() + blob.start.ellipse.center_px.cast<double>();
+  pixels.Start(patch_.width * patch_.height);
+  for (int y = patch_.top; y < patch_.top + patch_.height; ++y)
+    for (int x = patch_.left; x < patch_.left + patch_.width; ++x) {
+      const Eigen::Vector2d away = Eigen::Vector2d(x, y) - center;
+      if (away.dot(window * away) > 1) continue;
+      const float value = patch_.values[patch_.Index(x, y)];
+      if (std::abs(value - background) > foreign && away.dot(own * away) > 1) continue;
+      pixels.Add(static_cast<float>(x - blob.origin_px.x()),
+                 static_cast<float>(y - blob.origin_px.y()), value, reader.IsSaturated(x, y));
+    }
+  pixels.Finish();
+}
+
+}  // namespace articap

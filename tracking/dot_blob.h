@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "tracking/dot_fit.h"
+#include "tracking/dot_scan.h"
+#include "tracking/pixel_reader.h"
+
+namespace articap {
+
+// Runs that belong together: of one place that stands out.
+struct DotSeed {
+  Eigen::Vector2i min_px = Eigen::Vector2i::Zero();  // the box around them, inclusive
+  Eigen::Vector2i max_px = Eigen::Vector2i::Zero();
+  DotRun clearest;  // of its runs
+};
+
+// Joins runs of successive rows (step_y apart) that overlap and whose contrasts differ by less than
+// a factor of two (union-find). In the order of their first runs.
+class RunJoiner {
+ public:
+  void Join(const std::vector<DotRun>& runs, int step_y, std::vector<DotSeed>& seeds);
+
+ private:
+  int RootOf(int run);
+
+  std::vector<int> parents_, seed_of_root_;
+};
+
+// What a dot may look like, in pixels of the image.
+struct DotBlobLimits {
+  double largest_px = 40;  // extent along x or y
+  double least_contrast = 0.05;
+  double min_roundness = 0.4;
+  double min_area_px2 = 10;
+  double max_area_px2 = 1300;
+};
+
+// The most that a dot of this radius may be blurred by, SD. Bumps of light, which have no edge,
+// come out with 0.38 (a paraboloid) to 0.57 (a Gaussian) of their radius at half height.
+double LargestBlur(double radius_px);
+
+// The pixels of a dot, with what can be said of it before it is fitted. The origin of coordinates
+// is the middle of the pixel at `origin_px`.
+struct DotBlob {
+  Eigen::Vector2i origin_px = Eigen::Vector2i::Zero();
+  DotModel start;
+  Eigen::Matrix2d shape_px2 = Eigen::Matrix2d::Identity();
+  bool saturated = false;
+  bool at_border = false;  // of the picture
+};
+
+// Gathers the pixels around a seed that are above half of the way from what surrounds it to what it
+// has, and measures them. Keeps its scratch.
+class DotBlobFinder {
+ public:
+  // Nothing where this is no round spot. What the fit needs is put into `pixels`: the spot and a
+  // margin around it, without what else is there.
+  std::optional<DotBlob> Find(const PixelReader& reader, const DotSeed& seed,
+                              const DotBlobLimits& limits, const PixelNoise& noise,
+                              DotPixels& pixels);
+
+ private:
+  // A window of the picture, its values, and whether each pixel is of the spot.
+  struct Patch {
+    int left = 0, top = 0, width = 0, height = 0;
+    std::vector<float> values;
+    std::vector<std::uint8_t> inside;
+
+    int Index(int x, int y) const { return (y - top) * width + x - left; }
+  };
+  struct Moments {
+    double area_px2 = 0;
+    Eigen::Vector2d mean_px = Eigen::Vector2d::Zero();  // in the picture
+    Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
+  };
+
+  // Goes to the middle of the row and the column that the seed is in, and from there outwards in
+  // sixteen directions. Returns how far it is to the last pixel above the threshold, at most;
+  // nothing where that differs too much from direction to direction for a dot. Most candidates are
+  // none, and end here.
+  std::optional<double> FindReach(const PixelReader& reader, double threshold,
+                                  const DotBlobLimits& limits, Eigen::Vector2i& middle) const;
+  void ReadPatch(const PixelReader& reader, const Eigen::Vector2i& middle, int reach);
+  // Marks what hangs together with a pixel above the threshold. False where it reaches the patch's
+  // border within the picture.
+  bool Grow(const PixelReader& reader, const Eigen::Vector2i& from, double threshold);
+  Moments MeasureInside() const;
+  // Whether the pixels inside are those of an ellipse.
+  bool IsEllipse(const Moments& moments) const;
+  // Of the patch without the ellipse.
+  double MedianOutside(const Moments& moments);
+  // Whether the spot ends as a dot does, from the areas above the quarters of its height.
+  bool HasEdge(const Moments& moments, double background, double half) const;
+  Eigen::Vector2d WeightedCenter(const Moments& moments, double background) const;
+  void GatherPixels(const PixelReader& reader, const DotBlob& blob, const PixelNoise& noise,
+                    DotPixels& pixels) const;
+
+  Patch patch_;
+  std::vector<Eigen::Vector2i> open_;
+  std::vector<float> outside_;
+};
+
+}  // namespace articap

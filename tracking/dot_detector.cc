@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/dot_detector.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/check.h"
+#include "tracking/dot_blob.h"
+#include "tracking/dot_fit.h"
+#include "tracking/dot_options.h"
+#include "tracking/dot_scan.h"
+#include "tracking/pixel_reader.h"
+
+namespace articap {
+namespace {
+
+PixelValues ValuesOf(const DotDetectorOptions& options) {
+  const auto color = ParseDotColor(options.color);
+  ARTICAP_CHECK(color.has_value());
+  return {options.polarity == DotPolarity::kDark, options.tone == DotTone::kSrgb, *color};
+}
+
+// Of max_misfit: above it nothing can be a dot, and below it all is well.
+constexpr double kMostLeft = 4;
+constexpr double kPlain = 0.67;
+
+// The pixels of an image are not always square: lengths along x and y are divided by `scale`.
+DotBlobLimits LimitsOf(const DotDetectorOptions& options, const Eigen::Vector2d& scale,
+                       double least_contrast) {
+  // Some room, as the fit decides.
+  constexpr double kRoom = 1.25;
+  const auto area_px2 = [&](double diameter_px) {
+    return std::numbers::pi / 4 * diameter_px * diameter_px / scale.prod();
+  };
+  DotBlobLimits limits;
+  limits.largest_px = kRoom * options.max_diameter_px /
+                      std::sqrt(std::max(0.1, options.min_roundness)) / scale.minCoeff();
+  limits.least_contrast = least_contrast / kRoom;
+  limits.min_roundness = options.min_roundness / kRoom * scale.minCoeff() / scale.maxCoeff();
+  limits.min_area_px2 = area_px2(options.min_diameter_px / kRoom);
+  limits.max_area_px2 = area_px2(options.max_diameter_px * kRoom);
+  return limits;
+}
+
+DotScanOptions ScanOptionsOf(const DotDetectorOptions& options, const Eigen::Vector2d& scale,
+                             const PixelNoise& noise) {
+  DotScanOptions scan;
+  // The smallest dot is met by two rows.
+  scan.step_y = std::clamp(static_cast<int>(options.min_diameter_px / scale.y() / 2.5), 1, 8);
+  // From the middle of the largest dot, beyond its edge.
+  constexpr double kBeyond_px = 3;
+  const auto steps = [&](double axis_scale, int step) {
+    const double distance_px = (options.max_diameter_px / 2 + kBeyond_px) / axis_scale;
+    return step * static_cast<int>(std::ceil(distance_px / step));
+  };
+  scan.distance_x = steps(scale.x(), 1);
+  scan.distance_y = steps(scale.y(), scan.step_y);
+  // A row may pass a small dot beside its middle, where blur has taken more than half of it.
+  constexpr double kBesideMiddle = 0.4;
+  scan.margin = kBesideMiddle * options.min_contrast;
+  // Of four that it stands out from by chance, and of the brightest pixel of a run.
+  scan.margin_sigma = options.sensitivity;
+  scan.noise = noise;
+  scan.most_runs = 20000 + 40 * options.most_dots;
+  return scan;
+}
+
+// From where the ellipse of a fit is in the image to the picture.
+Dot DotOf(const DotBlob& blob, const DotFit& fit, const PictureFromImage& picture_from_image) {
+  const DotEllipse& ellipse = fit.model.ellipse;
+  const Eigen::Vector2d center = ellipse.center_px.cast<double>();
+  Eigen::Matrix2d to_circle;
+  to_circle << ellipse.xx, ellipse.xy, 0, ellipse.yy;
+  const auto scale = picture_from_image.scale.asDiagonal();
+  Dot dot;
+  dot.center_px = picture_from_image * (center + blob.origin_px.cast<double>());
+  dot.covariance_px2 = scale * fit.covariance_px2 * scale;
+  dot.shape_px2 = scale * (to_circle.transpose() * to_circle).inverse() * scale;
+  dot.contrast = fit.model.contrast;
+  dot.background = fit.model.background + fit.model.slope_per_px.dot(center);
+  dot.misfit = fit.misfit;
+  dot.saturated = blob.saturated;
+  return dot;
+}
+
+// Whether the edge leaves the picture, whose size is the image's.
+bool LeavesPicture(const Dot& dot, const Eigen::Vector2d& size_px) {
+  const Eigen::Vector2d reach = dot.shape_px2.diagonal().cwiseSqrt();
+  return ((dot.center_px - reach).array() < -0.5).any() ||
+         ((dot.center_px + reach).array() > size_px.array() - 0.5).any();
+}
+
+}  // namespace
+
+class DotDetector::Implementation {
+ public:
+  explicit Implementation(const DotDetectorOptions& options)
+      : options_(options), reader_(ValuesOf(options)) {
+    ARTICAP_CHECK(CheckOptions(options).has_value());
+    for (const std::string& region : options.regions) regions_.push_back(*ParseRegion(region));
+  }
+
+  std::vector<Dot> Detect(const ImageView& image, const PictureFromImage& picture_from_image) {
+    report_ = {};
+    if (image.empty()) return {};
+    reader_.Open(image);
+    report_.noise = Noise();
+    const Eigen::Vector2d scale = picture_from_image.scale;
+    FindCandidates(ScanOptionsOf(options_, scale, report_.noise), picture_from_image);
+    const double least_contrast = std::max(
+        options_.min_contrast, options_.sensitivity * std::sqrt(report_.noise.VarianceAt(0)));
+    const DotBlobLimits limits = LimitsOf(options_, scale, least_contrast);
+    std::vector<Dot> dots;
+    known_.clear();
+    for (const DotSeed& seed : seeds_) {
+      if (static_cast<int>(dots.size()) == options_.most_dots) {
+        report_.too_many = true;
+        break;
+      }
+      if (const auto dot = Examine(seed, limits, picture_from_image)) dots.push_back(*dot);
+    }
+    std::sort(dots.begin(), dots.end(), [](const Dot& a, const Dot& b) {
+      return std::pair(a.center_px.y(), a.center_px.x()) <
+             std::pair(b.center_px.y(), b.center_px.x());
+    });
+    if (options_.polarity == DotPolarity::kDark && image.format != PixelFormat::kRgb8)
+      for (Dot& dot : dots) {
+        dot.contrast *= -1;
+        dot.background = 1 - dot.background;
+      }
+    return dots;
+  }
+
+  const DotDetectorReport& report() const { return report_; }
+  void set_simd_level(SimdLevel level) {
+    scanner_ = DotScanner(level);
+    fitter_ = DotFitter(level);
+  }
+  SimdLevel simd_level() const { return scanner_.level(); }
+
+ private:
+  PixelNoise Noise() {
+    const double least = reader_.least_variance();
+    PixelNoise noise;
+    if (!options_.read_noise || !options_.noise_gain) {
+      reader_.SampleNoise(noise_samples_);
+      noise = noise_samples_.Estimate(least);
+    }
+    if (!options_.read_noise && !options_.noise_gain) return noise;
+    PixelNoise given = noise;
+    if (options_.read_noise)
+      given.read_variance = *options_.read_noise * *options_.read_noise + least;
+    if (options_.noise_gain) given.gain = *options_.noise_gain;
+    return options_.polarity == DotPolarity::kDark ? given.Negative() : given;
+  }
+
+  bool IsWanted(const Eigen::Vector2d& point_px) const {
+    return regions_.empty() ||
+           std::any_of(regions_.begin(), regions_.end(),
+                       [&](const DotRegion& region) { return region.Contains(point_px); });
+  }
+
+  // The clearest first.
+  void FindCandidates(const DotScanOptions& scan, const PictureFromImage& picture_from_image) {
+    report_.too_many = !scanner_.Scan(reader_, scan, runs_);
+    joiner_.Join(runs_, scan.step_y, seeds_);
+    const auto is_none = [&](const DotSeed& seed) {
+      const Eigen::Vector2d extent =
+          (seed.max_px - seed.min_px).cast<double>().cwiseProduct(picture_from_image.scale);
+      const Eigen::Vector2d peak(seed.clearest.peak_x, seed.clearest.y);
+      return extent.maxCoeff() > 2 * options_.max_diameter_px ||
+             !IsWanted(picture_from_image * peak);
+    };
+    seeds_.erase(std::remove_if(seeds_.begin(), seeds_.end(), is_none), seeds_.end());
+    report_.candidates = static_cast<int>(seeds_.size());
+    std::stable_sort(seeds_.begin(), seeds_.end(), [](const DotSeed& a, const DotSeed& b) {
+      return a.clearest.contrast > b.clearest.contrast;
+    });
+    // Most candidates in a face are none, and soon found to be none.
+    const std::size_t most = 1000 + 10 * static_cast<std::size_t>(options_.most_dots);
+    if (seeds_.size() <= most) return;
+    seeds_.resize(most);
+    report_.too_many = true;
+  }
+
+  // Whether a pixel is of a blob that has been looked at.
+  bool IsKnown(const Eigen::Vector2d& point_px) const {
+    return std::any_of(known_.begin(), known_.end(), [&](const KnownBlob& known) {
+      const Eigen::Vector2d away = point_px - known.center_px;
+      return away.dot(known.inverse_shape * away) <= 1;
+    });
+  }
+
+  std::optional<Dot> Examine(const DotSeed& seed, const DotBlobLimits& limits,
+                             const PictureFromImage& picture_from_image) {
+    if (IsKnown(Eigen::Vector2d(seed.clearest.peak_x, seed.clearest.y))) return std::nullopt;
+    const auto blob = finder_.Find(reader_, seed, limits, report_.noise, pixels_);
+    if (!blob || IsKnown(blob->origin_px.cast<double>())) return std::nullopt;
+    known_.push_back({blob->origin_px.cast<double>(), blob->shape_px2.inverse()});
+    ++report_.blobs;
+    bool hidden = false;
+    const auto fit = Fit(*blob, hidden);
+    if (fit && Confirms(*fit, *blob)) {
+      Dot dot = DotOf(*blob, *fit, picture_from_image);
+      const Eigen::Vector2d size_px =
+          Eigen::Vector2d(reader_.width(), reader_.height()).cwiseProduct(picture_from_image.scale);
+      dot.occluded = hidden || blob->at_border || LeavesPicture(dot, size_px);
+      if (IsDot(dot)) return dot;
+    }
+    ++report_.refused;
+    return std::nullopt;
+  }
+
+  // Robustly where something seems to hide a part, or to be near.
+  std::optional<DotFit> Fit(const DotBlob& blob, bool& hidden) {
+    hidden = false;
+    auto fit = fitter_.Fit(pixels_, blob.start, report_.noise);
+    if (!fit || fit->left > kMostLeft * options_.max_misfit) return std::nullopt;
+    if (fit->left <= kPlain * options_.max_misfit) return fit;
+    constexpr double kScale = 0.15;  // of the contrast
+    const auto robust = fitter_.FitRobustly(pixels_, *fit, report_.noise, kScale);
+    constexpr double kLeastHidden = 0.05, kMostHidden = 0.25;
+    if (robust && robust->disbelieved < kMostHidden &&
+        robust->left < kPlain * options_.max_misfit) {
+      hidden = robust->disbelieved > kLeastHidden;
+      return robust;
+    }
+    return fit->left <= options_.max_misfit ? fit : std::nullopt;
+  }
+
+  // Whether the fit is one of what was seen: where the edge is not round, contrast and blur may
+  // replace one another.
+  bool Confirms(const DotFit& fit, const DotBlob& blob) const {
+    const double part = fit.model.contrast / blob.start.contrast;
+    const double radius_px = std::pow(blob.shape_px2.determinant(), 0.25);
+    return part > 0.7 && part < (blob.saturated ? 2.5 : 1.5) &&
+           fit.model.ellipse.blur_px <=
+               std::min(options_.max_blur_px, LargestBlur(radius_px) + 0.5);
+  }
+
+  bool IsDot(const Dot& dot) const {
+    const double diameter_px = dot.diameter_px();
+    const double noise = std::sqrt(report_.noise.VarianceAt(dot.background));
+    return diameter_px >= options_.min_diameter_px && diameter_px <= options_.max_diameter_px &&
+           dot.roundness() >= options_.min_roundness && dot.contrast >= options_.min_contrast &&
+           dot.contrast >= options_.sensitivity * noise && IsWanted(dot.center_px);
+  }
+
+  struct KnownBlob {
+    Eigen::Vector2d center_px;  // in the image
+    Eigen::Matrix2d inverse_shape;
+  };
+
+  DotDetectorOptions options_;
+  std::vector<DotRegion> regions_;
+  PixelReader reader_;
+  NoiseSamples noise_samples_;
+  DotScanner scanner_;
+  RunJoiner joiner_;
+  DotBlobFinder finder_;
+  DotPixels pixels_;
+  DotFitter fitter_;
+  std::vector<DotRun> runs_;
+  std::vector<DotSeed> seeds_;
+  std::vector<KnownBlob> known_;
+  DotDetectorReport report_;
+};
+
+DotDetector::DotDetector(const DotDetectorOptions& options)
+    : implementation_(std::make_unique<Implementation>(options)) {}
+DotDetector::~DotDetector() = default;
+DotDetector::DotDetector(DotDetector&&) noexcept = default;
+DotDetector& DotDetector::operator=(DotDetector&&) noexcept = default;
+
+std::vector<Dot> DotDetector::Detect(const ImageView& image,
+                                     const PictureFromImage& picture_from_image) {
+  return implementation_->Detect(image, picture_from_image);
+}
+
+const DotDetectorReport& DotDetector::report() const { return implementation_->report(); }
+void DotDetector::set_simd_level(SimdLevel level) { implementation_->set_simd_level(level); }
+SimdLevel DotDetector::simd_level() const { return implementation_->simd_level(); }
+
+}  // namespace articap

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/pixel_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace articap {
+namespace {
+
+// A little less than the last code of 8 bits, and what cameras of 10 or 12 bits end at in 16.
+constexpr float kSaturation = 0.998f;
+
+std::uint16_t Code16(const ImageView& image, int x, int y) {
+  std::uint16_t code = 0;
+  std::memcpy(&code, image.row(y) + 2 * static_cast<std::ptrdiff_t>(x), sizeof(code));
+  return code;
+}
+
+const std::uint8_t* Rgb(const ImageView& image, int x, int y) {
+  return image.row(y) + 3 * static_cast<std::ptrdiff_t>(x);
+}
+
+// A coarse grid all over the picture.
+Eigen::Vector3f MeanColor(const ImageView& image) {
+  const int step_x = std::max(1, image.width / 64), step_y = std::max(1, image.height / 36);
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  int count = 0;
+  for (int y = step_y / 2; y < image.height; y += step_y)
+    for (int x = step_x / 2; x < image.width; x += step_x, ++count)
+      sum += Eigen::Map<const Eigen::Matrix<std::uint8_t, 3, 1>>(Rgb(image, x, y)).cast<float>();
+  return sum / (255.0f * static_cast<float>(std::max(1, count)));
+}
+
+}  // namespace
+
+float PixelReader::Linear(double code) const {
+  if (!values_.srgb_tone) return static_cast<float>(code);
+  return static_cast<float>(code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4));
+}
+
+void PixelReader::Open(const ImageView& image) {
+  image_ = image;
+  if (image.format == PixelFormat::kRgb8 && !image.empty()) SetColorWeights();
+  if (!has_tables_ || tables_for_ != image.format || image.format == PixelFormat::kRgb8)
+    SetTables();
+  has_tables_ = true;
+  tables_for_ = image.format;
+}
+
+void PixelReader::SetColorWeights() {
+  // People's: ITU-R BT.709. Video resolves its brightness better than its colours, too.
+  weights_ = {0.2126f, 0.7152f, 0.0722f};
+  if (values_.color) {
+    const Eigen::Vector3f apart = *values_.color - MeanColor(image_);
+    const float size = apart.cwiseAbs().sum();
+    if (size > 0) weights_ = apart / size;
+  } else if (values_.dark_dots) {
+    weights_ *= -1;
+  }
+  offset_ = -weights_.cwiseMin(0.0f).sum();
+}
+
+void PixelReader::SetTables() {
+  if (image_.format == PixelFormat::kRgb8) {
+    for (int channel = 0; channel < 3; ++channel)
+      for (int code = 0; code < 256; ++code) {
+        const float part = channel == 0 ? offset_ : 0;
+        color_[channel][code] = part + weights_[channel] * Linear(code / 255.0);
+        row_color_[channel][code] = static_cast<std::int32_t>(
+            std::lround(65536.0f * (255 * part + weights_[channel] * static_cast<float>(code))));
+      }
+    return;
+  }
+  const int codes = is_16_bit() ? 65536 : 256;
+  gray_.resize(codes);
+  for (int code = 0; code < codes; ++code) {
+    const float linear = Linear(static_cast<double>(code) / (codes - 1));
+    gray_[code] = values_.dark_dots ? 1 - linear : linear;
+  }
+}
+
+float PixelReader::Value(int x, int y) const {
+  switch (image_.format) {
+    case PixelFormat::kGray8:
+      return gray_[image_.row(y)[x]];
+    case PixelFormat::kGray16:
+      return gray_[Code16(image_, x, y)];
+    case PixelFormat::kRgb8: {
+      const std::uint8_t* rgb = Rgb(image_, x, y);
+      return color_[0][rgb[0]] + color_[1][rgb[1]] + color_[2][rgb[2]];
+    }
+  }
+  return 0;
+}
+
+void PixelReader::ReadValues(int x, int y, int count, float* values) const {
+  for (int i = 0; i < count; ++i) values[i] = Value(x + i, y);
+}
+
+bool PixelReader::IsSaturated(int x, int y) const {
+  if (image_.format != PixelFormat::kRgb8) return Value(x, y) >= kSaturation;
+  const std::uint8_t* rgb = Rgb(image_, x, y);
+  for (int channel = 0; channel < 3; ++channel)
+    if (rgb[channel] == (weights_[channel] > 0 ? 255 : 0) && std::abs(weights_[channel]) > 0.2f)
+      return true;
+  return false;
+}
+
+double PixelReader::least_variance() const {
+  const double step = is_16_bit() ? 1.0 / 65535 : 1.0 / 255;
+  const double scale = image_.format == PixelFormat::kRgb8 ? weights_.norm() : 1;
+  return step * step * scale * scale / 12;
+}
+
+template <class Integer>
+void PixelReader::ReadRow(int y, Integer* row) const {
+  const int count = image_.width;
+  if (image_.format == PixelFormat::kRgb8) {
+    const std::uint8_t* rgb = image_.row(y);
+    for (int x = 0; x < count; ++x, rgb += 3)
+      row[x] = static_cast<Integer>(std::clamp(
+          (row_color_[0][rgb[0]] + row_color_[1][rgb[1]] + row_color_[2][rgb[2]] + 32768) >> 16, 0,
+          255));
+    return;
+  }
+  std::memcpy(row, image_.row(y), static_cast<std::size_t>(count) * sizeof(Integer));
+  if (!values_.dark_dots) return;
+  for (int x = 0; x < count; ++x) row[x] = static_cast<Integer>(~row[x]);
+}
+
+template void PixelReader::ReadRow(int y, std::uint8_t* row) const;
+template void PixelReader::ReadRow(int y, std::uint16_t* row) const;
+
+void PixelReader::SampleNoise(NoiseSamples& samples) const {
+  samples.Clear();
+  constexpr int kRows = 24, kColumns = 256;
+  const int step_y = std::max(1, image_.height / kRows);
+  const int step_x = std::max(1, image_.width / kColumns);
+  for (int y = step_y / 2; y < image_.height; y += step_y)
+    for (int x = 1 + step_x / 2; x + 1 < image_.width; x += step_x) {
+      const float left = Value(x - 1, y), middle = Value(x, y), right = Value(x + 1, y);
+      // At the ends of the range values do not scatter.
+      const auto [least, most] = std::minmax({left, middle, right});
+      if (least > 1 - kSaturation && most < kSaturation) samples.Add(left, middle, right);
+    }
+}
+
+}  // namespace articap
