@@ -54,8 +54,10 @@ bool LiesOn(const RenderDisc& disc, const SurfacePoint& of_disc, const SurfacePo
   if (beyond_mm.dot(ray.direction.cast<float>()) >= 0) return true;
   const Eigen::Vector3d arm_mm = other.position_mm.cast<double>() - disc.center_mm;
   const double height_mm = arm_mm.dot(disc.normal);
+  // A little more than what is beneath, since that is bent where a sticker ends.
+  constexpr double kBeneath = 1.25;
   return height_mm <= disc.give_mm &&
-         (arm_mm - height_mm * disc.normal).norm() <= disc.radius_mm + disc.give_mm;
+         (arm_mm - height_mm * disc.normal).norm() <= kBeneath * disc.radius_mm;
 }
 
 }  // namespace
