@@ -118,8 +118,12 @@ class Shader {
     if (lambert.x() <= 0) return;
     if (options_.shadows && traced_.IsBlocked(surface.start_mm, towards)) return;
     diffuse += light.radiance.cwiseProduct(lambert);
-    if (cosine <= 0 || surface.material->gloss <= 0) return;
+    if (cosine <= 0) return;
     const Vector3f halfway = (towards - direction).normalized();
+    if (surface.disc < 0 && surface.sphere < 0)
+      for (const RenderWetSpot& wet : scene_.wet_spots)
+        highlight += wet.ShineAt(surface.position_mm, surface.normal, halfway) * light.radiance;
+    if (surface.material->gloss <= 0) return;
     // Schlick's Fresnel term at 4 % normal reflectance, scaled so that gloss 1 is a wet surface.
     const float grazing = std::pow(1 - std::max(0.0f, halfway.dot(towards)), 5.0f);
     const float fresnel = 0.04f + 0.96f * grazing;
@@ -329,6 +333,14 @@ LinearPicture RenderAdaptively(const PixelSampler& sampler, const RenderOptions&
 }
 
 }  // namespace
+
+float RenderWetSpot::ShineAt(const Vector3f& position_mm, const Vector3f& normal,
+                             const Vector3f& halfway) const {
+  const auto part = static_cast<float>((position_mm.cast<double>() - center_mm).norm() / radius_mm);
+  if (part >= 1) return 0;
+  const float left = 1 - part * part;
+  return gloss * left * std::pow(std::max(0.0f, normal.dot(halfway)), shininess);
+}
 
 std::vector<DirectionalLight> PortraitLights() {
   return {{{0.55, 0.75, 0.95}, {0.98f, 0.93f, 0.86f}, 0.16},

@@ -45,6 +45,19 @@ struct RenderDisc {
   Material material = {};
 };
 
+// A wet or greasy place of the meshes, which shines more sharply than their material.
+struct RenderWetSpot {
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
+  double radius_mm = 5;  // where the shine has faded
+  float gloss = 1.5f;    // of a lamp's radiance, where it is reflected to the viewer
+  float shininess = 250;
+
+  // What a place with this unit normal shines, before the lamp's colour. halfway: between the
+  // directions to the lamp and to the viewer, unit.
+  float ShineAt(const Eigen::Vector3f& position_mm, const Eigen::Vector3f& normal,
+                const Eigen::Vector3f& halfway) const;
+};
+
 // A rectangular plane mirror in a frame. It turns rays of sight alone: it neither throws shadows
 // nor lights, and its glass has no reflection of its own.
 struct RenderMirror {
@@ -76,6 +89,7 @@ struct Scene {
   std::vector<RenderMesh> meshes;
   std::vector<RenderSphere> spheres;
   std::vector<RenderDisc> discs = {};
+  std::vector<RenderWetSpot> wet_spots = {};
   std::vector<RenderMirror> mirrors = {};
   std::vector<DirectionalLight> lights = PortraitLights();
   Eigen::Vector3f ambient = Eigen::Vector3f(0.29f, 0.30f, 0.32f);  // from all sides, linear RGB

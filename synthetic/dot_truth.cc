@@ -29,12 +29,6 @@ struct Outline {
   }
 };
 
-// Where a view looks from; glass, which hardly turns a line of sight, is not regarded.
-Eigen::Vector3d EyeOf(const CameraArray& array, const View& view) {
-  const Eigen::Vector3d eye_mm = array.cameras[view.camera].cam_from_stage.Inverse().translation_mm;
-  return view.mirror < 0 ? eye_mm : array.mirrors[view.mirror].Reflect(eye_mm);
-}
-
 Outline OutlineOf(const CameraArray& array, const View& view, const SpeakerScene& filmed, int dot) {
   const Eigen::Vector3d& center_mm = filmed.center_mm(dot);
   const Eigen::Vector3d axis = filmed.scene.discs.empty()
@@ -96,6 +90,11 @@ double VisiblePart(const Studio& studio, const TracedScene& traced, const View& 
 }
 
 }  // namespace
+
+Eigen::Vector3d EyeOf(const CameraArray& array, const View& view) {
+  const Eigen::Vector3d eye_mm = array.cameras[view.camera].cam_from_stage.Inverse().translation_mm;
+  return view.mirror < 0 ? eye_mm : array.mirrors[view.mirror].Reflect(eye_mm);
+}
 
 std::vector<std::vector<DotTruth>> TruthOfDots(const Studio& studio, const SpeakerScene& filmed) {
   const CameraArray& array = studio.cameras().array;

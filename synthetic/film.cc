@@ -114,19 +114,24 @@ std::string Film::DotsHeader() {
 
 std::string Film::DotsOf(int frame) const {
   const SyntheticTake& take = speaker_.take();
-  const std::vector<std::string>& names = take.markers.tracks.names();
   const CameraArray& array = studio_.cameras().array;
   const std::vector<View> views = array.views();
-  const auto of_views = TruthOfDots(studio_, speaker_.At(frame, studio_));
+  const SpeakerScene filmed = speaker_.At(frame, studio_);
   std::string text;
-  for (std::size_t view = 0; view < views.size(); ++view)
-    for (std::size_t dot = 0; dot < names.size(); ++dot) {
-      const DotTruth& truth = of_views[view][dot];
+  const auto add = [&](const View& view, const std::vector<std::string>& names,
+                       const std::vector<DotTruth>& truths) {
+    for (std::size_t i = 0; i < names.size(); ++i)
       fmt::format_to(std::back_inserter(text), "{},{:.6f},{},{},{},{},{:.2f},{}\n", frame + 1,
-                     frame / take.truth.rate_hz, array.NameOf(views[view]), names[dot],
-                     Decimals(truth.center_px.x(), 4), Decimals(truth.center_px.y(), 4),
-                     truth.visible, Decimals(truth.diameter_px, 3));
-    }
+                     frame / take.truth.rate_hz, array.NameOf(view), names[i],
+                     Decimals(truths[i].center_px.x(), 4), Decimals(truths[i].center_px.y(), 4),
+                     truths[i].visible, Decimals(truths[i].diameter_px, 3));
+  };
+  const auto dots = TruthOfDots(studio_, filmed);
+  const auto glints = TruthOfGlints(studio_, filmed);
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    add(views[view], take.markers.tracks.names(), dots[view]);
+    add(views[view], filmed.glint_names, glints[view]);
+  }
   return text;
 }
 

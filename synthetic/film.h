@@ -42,7 +42,8 @@ class Film {
   // On one thread; frames may be asked for from several.
   Image Picture(int frame, int camera) const;
   // One line a view and marker: frame (from 1), time_s, view, marker, x_px, y_px, visible,
-  // diameter_px; what these are: DotTruth. At the frame's time, whatever the shutter does.
+  // diameter_px; what these are: DotTruth. Then the glints, which are no markers: "glint_nose_tip".
+  // At the frame's time, whatever the shutter does.
   static std::string DotsHeader();
   std::string DotsOf(int frame) const;
 

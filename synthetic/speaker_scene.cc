@@ -105,6 +105,8 @@ void VisitOptions(SpeakerLookOptions& options, OptionVisitor& visit) {
   visit("dot_diameter_mm", options.dot_diameter_mm, "of a dot; mm");
   visit("retro_reflective", options.retro_reflective,
         "dots that shine in a dark room; else white ones in the light of a room");
+  visit("glints", options.glints,
+        "wet and greasy places that mirror the lamp: spots that are no dots");
   visit("diffuse_light", options.diffuse_light,
         "part of the light that comes from all sides; the rest is a lamp's and throws shadows");
   visit("light_drift", options.light_drift, "part by which the light slowly rises and falls");
@@ -177,6 +179,8 @@ SpeakerScene FilmedSpeaker::At(double frame, const Studio& studio) const {
   filmed.scene = SceneOf(speaker_, posed_in_stage_mm, {.show_spectacles = wears_spectacles_});
   filmed.scene.mirrors = studio.cameras().RenderMirrors();
   AddDots(posed_in_stage_mm, centers_mm, filmed);
+  if (look_.glints && !look_.retro_reflective)
+    AddGlints(posed_in_stage_mm, stage_from_head, filmed);
   Light(frame / take_.truth.rate_hz, filmed);
   return filmed;
 }
@@ -202,6 +206,32 @@ void FilmedSpeaker::AddDots(const std::vector<Eigen::Vector3d>& posed_in_stage_m
                                    place.t * normals[place.triangle[2]];
     filmed.scene.discs.push_back(
         {centers_mm[dot], normal.normalized(), radius_mm, radius_mm, white, material});
+  }
+}
+
+// How sharp each shines is so that its image is some two millimetres wide: the rounder the place,
+// the less.
+void FilmedSpeaker::AddGlints(const std::vector<Eigen::Vector3d>& posed_in_stage_mm,
+                              const Rigid3d& stage_from_head, SpeakerScene& filmed) const {
+  struct Site {
+    const char* landmark;
+    Eigen::Vector3d beside_mm;  // head axes
+    double radius_mm;
+    float shininess;
+  };
+  const Site sites[] = {{"left_eye_center", {0, 0, 10}, 8, 250},
+                        {"right_eye_center", {0, 0, 10}, 8, 250},
+                        {"lower_lip_center", {0, 5, 0}, 10, 120},
+                        {"nose_tip", {0, 0, 0}, 10, 250},
+                        {"forehead_center", {0, 0, 0}, 28, 2000}};
+  for (const Site& site : sites) {
+    const auto vertex = speaker_.FindLandmark(site.landmark);
+    if (!vertex) continue;
+    const Eigen::Vector3d beside_mm = stage_from_head.rotation * site.beside_mm;
+    filmed.scene.wet_spots.push_back({.center_mm = posed_in_stage_mm[*vertex] + beside_mm,
+                                      .radius_mm = site.radius_mm,
+                                      .shininess = site.shininess});
+    filmed.glint_names.push_back(std::string("glint_") + site.landmark);
   }
 }
 

@@ -29,6 +29,10 @@ struct SpeakerLookOptions {
   // Dots that shine back at the cameras' own lamps, in a room that is nearly dark; else white ones
   // in the light of a room.
   bool retro_reflective = false;
+  // Eyes, the lower lip, the forehead and the tip of the nose are wet or greasy and mirror the
+  // lamp: bright spots that look like dots, but move against the skin, and lie elsewhere in every
+  // view. Not in a dark room.
+  bool glints = false;
   // The part of the room's light that comes from all sides; the rest comes from one lamp, shades
   // balls and throws shadows.
   double diffuse_light = 0.4;
@@ -51,6 +55,7 @@ MarkerSet WithDots(MarkerSet set, const SpeakerLookOptions& look);
 struct SpeakerScene {
   Scene scene;
   int num_dots = 0;
+  std::vector<std::string> glint_names;  // of scene.wet_spots: "glint_forehead_center"
 
   const Eigen::Vector3d& center_mm(int dot) const;
   double radius_mm(int dot) const;
@@ -69,6 +74,8 @@ class FilmedSpeaker {
   SpeakerScene At(double frame, const Studio& studio) const;
 
  private:
+  void AddGlints(const std::vector<Eigen::Vector3d>& posed_in_stage_mm,
+                 const Rigid3d& stage_from_head, SpeakerScene& filmed) const;
   void AddDots(const std::vector<Eigen::Vector3d>& posed_in_stage_mm,
                const std::vector<Eigen::Vector3d>& centers_mm, SpeakerScene& filmed) const;
   void Light(double time_s, SpeakerScene& filmed) const;
@@ -91,8 +98,15 @@ struct DotTruth {
   double diameter_px = 0;
 };
 
+// Where a view looks from; glass, which hardly turns a line of sight, is not regarded.
+Eigen::Vector3d EyeOf(const CameraArray& array, const View& view);
+
 // For every view of the studio's array, in their order, every dot.
 std::vector<std::vector<DotTruth>> TruthOfDots(const Studio& studio, const SpeakerScene& filmed);
+
+// Where every view shows each glint: its brightest place; visible is 1 where it is to be seen, else
+// 0 (also where nothing there mirrors the lamp), diameter_px is not known.
+std::vector<std::vector<DotTruth>> TruthOfGlints(const Studio& studio, const SpeakerScene& filmed);
 
 // Rows of a picture, the end excluded.
 struct PictureRows {

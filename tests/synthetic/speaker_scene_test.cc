@@ -229,6 +229,80 @@ TEST(SpeakerSceneTest, AHiddenPartIsMissingInThePicture) {
   EXPECT_GT(partly_seen, 3);
 }
 
+// The brightest pixel of what wetness adds to a picture, near a place.
+Eigen::Vector2d BrightestAdded(const LinearPicture& wet, const LinearPicture& dry,
+                               const Eigen::Vector2d& near_px) {
+  constexpr int kReach_px = 12;
+  Eigen::Vector2d brightest_px = near_px;
+  float most = 0;
+  for (int y = static_cast<int>(near_px.y()) - kReach_px; y <= near_px.y() + kReach_px; ++y)
+    for (int x = static_cast<int>(near_px.x()) - kReach_px; x <= near_px.x() + kReach_px; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * wet.width + x;
+      const float added = wet.rgb[pixel].x() - dry.rgb[pixel].x();
+      if (added <= most) continue;
+      most = added;
+      brightest_px = {x, y};
+    }
+  return brightest_px;
+}
+
+// To a pixel, and to the tenth of a triangle's edge by which the truth is sought.
+TEST(SpeakerSceneTest, GlintsAreWhereTheTruthHasThem) {
+  SpeakerLookOptions look;
+  look.glints = true;
+  const Studio studio(RingOfCameras(2, 1));
+  const FilmedSpeaker speaker = SpeakerWith("mirror6", look);
+  const PictureRows all = {0, 720};
+  int seen = 0;
+  for (const double frame : {0.0, 60.0}) {
+    const SpeakerScene wet = speaker.At(frame, studio);
+    SpeakerScene dry = wet;
+    dry.scene.wet_spots.clear();
+    const auto truths = TruthOfGlints(studio, wet);
+    ASSERT_EQ(truths.size(), 2u);
+    for (int camera = 0; camera < 2; ++camera) {
+      ASSERT_EQ(truths[camera].size(), wet.glint_names.size());
+      const LinearPicture wet_picture = RenderSpeaker(studio, wet, camera, all);
+      const LinearPicture dry_picture = RenderSpeaker(studio, dry, camera, all);
+      for (const DotTruth& truth : truths[camera]) {
+        if (truth.visible == 0) continue;
+        ++seen;
+        EXPECT_LT((BrightestAdded(wet_picture, dry_picture, truth.center_px) - truth.center_px)
+                      .cwiseAbs()
+                      .maxCoeff(),
+                  2);
+      }
+    }
+  }
+  EXPECT_GE(seen, 8);
+}
+
+// Two cameras 100 degrees apart: what both take for one dot is nowhere near where their lines of
+// sight come closest.
+TEST(SpeakerSceneTest, GlintsAreNotOnePlaceForAllViews) {
+  SpeakerLookOptions look;
+  look.glints = true;
+  const Studio studio(RingOfCameras(2, 1));
+  const SpeakerScene filmed = SpeakerWith("mirror6", look).At(0, studio);
+  const auto truths = TruthOfGlints(studio, filmed);
+  const CameraArray& array = studio.cameras().array;
+  int seen_twice = 0;
+  for (std::size_t glint = 0; glint < filmed.glint_names.size(); ++glint) {
+    if (truths[0][glint].visible == 0 || truths[1][glint].visible == 0) continue;
+    ++seen_twice;
+    const SightRay first = *studio.lens_view(0).RayThrough(truths[0][glint].center_px);
+    const SightRay second = *studio.lens_view(1).RayThrough(truths[1][glint].center_px);
+    const Eigen::Vector3d across = first.direction.cross(second.direction).normalized();
+    const double apart_mm = std::abs(across.dot(first.origin_mm - second.origin_mm));
+    const Eigen::Vector3d middle_mm = filmed.scene.wet_spots[glint].center_mm;
+    const double moved_px = (*Project(array, {0, -1}, middle_mm) - truths[0][glint].center_px -
+                             *Project(array, {1, -1}, middle_mm) + truths[1][glint].center_px)
+                                .norm();
+    EXPECT_TRUE(apart_mm > 0.5 || moved_px > 2) << filmed.glint_names[glint];
+  }
+  EXPECT_GE(seen_twice, 1);
+}
+
 TEST(SpeakerSceneTest, TheLightDriftsAndFlickers) {
   SpeakerLookOptions look;
   look.light_drift = 0.1;
