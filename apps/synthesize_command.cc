@@ -7,6 +7,7 @@
 #include "apps/progress.h"
 #include "apps/resources.h"
 #include "apps/rig_input.h"
+#include "apps/synthesize_video.h"
 #include "apps/verbs.h"
 #include "synthetic/take_files.h"
 
@@ -31,15 +32,67 @@ StageReport DescribeTake(const SyntheticTake& take, const DisturbedRecording& di
   return report;
 }
 
-Result<SyntheticTake> Synthesize(const std::string& rig_folder, const std::string& map,
-                                 const SyntheticTakeOptions& options) {
-  const Result<FaceRig> rig = ChooseRig(rig_folder);
-  if (!rig) return tl::unexpected(rig.error());
-  const auto map_path = FindMap(map);
+struct SynthesizeArguments {
+  std::string folder, rig_folder, map = "spectacles30";
+  SyntheticTakeOptions take;
+  SyntheticNoiseOptions noise;
+  SynthesizeVideoOptions video;
+  SensorOptions sensor = MachineVision();
+
+  bool is_filmed() const { return !video.cameras.empty(); }
+};
+
+Result<void> CheckOptions(const SynthesizeArguments& arguments) {
+  if (auto valid = CheckOptions(arguments.noise); !valid) return valid;
+  return CheckOptions(arguments.video, arguments.sensor, arguments.take.speech.rate_hz);
+}
+
+Result<SyntheticTake> Synthesize(const FaceRig& rig, const SynthesizeArguments& arguments) {
+  const auto map_path = FindMap(arguments.map);
   if (!map_path) return tl::unexpected(map_path.error());
-  const Result<MarkerSet> set = ReadMarkerSet(*map_path);
+  Result<MarkerSet> set = ReadMarkerSet(*map_path);
   if (!set) return tl::unexpected(set.error());
-  return WithProgress("synthesizing", [&] { return SynthesizeTake(*rig, *set, options); });
+  SyntheticTakeOptions options = arguments.take;
+  if (arguments.is_filmed()) {
+    options.speaker_ahead = true;
+    set = WithDots(*std::move(set), arguments.video.film.look);
+  }
+  return WithProgress("synthesizing", [&] { return SynthesizeTake(rig, *set, options); });
+}
+
+Result<StageReport> RunSynthesize(const SynthesizeArguments& arguments,
+                                  const std::string& config_path) {
+  if (const auto checked = CheckOptions(arguments); !checked)
+    return tl::unexpected(checked.error());
+  const Result<FaceRig> rig = ChooseRig(arguments.rig_folder);
+  if (!rig) return tl::unexpected(rig.error());
+  const Result<SyntheticTake> take = Synthesize(*rig, arguments);
+  if (!take) return tl::unexpected(take.error());
+  const DisturbedRecording disturbed =
+      AddNoise(take->markers, arguments.noise, static_cast<std::uint64_t>(arguments.take.seed));
+  OutputSet outputs;
+  for (OutputFile& file : FilesOf(*take, disturbed, arguments.noise))
+    outputs.Add(std::filesystem::path(arguments.folder) / file.name, std::move(file.bytes));
+  if (arguments.is_filmed())
+    if (const auto added =
+            AddVideo(FilmedSpeaker(*rig, *take, arguments.video.film.look), arguments.video,
+                     arguments.sensor, arguments.take.seed, arguments.folder, outputs);
+        !added)
+      return tl::unexpected(added.error());
+  if (const auto allowed = outputs.RefuseToOverwrite({MapInput(arguments.map), config_path});
+      !allowed)
+    return tl::unexpected(allowed.error());
+  if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
+  StageReport report = DescribeTake(*take, disturbed, arguments.folder);
+  const auto add = [&](std::vector<std::pair<std::string, std::string>> options) {
+    report.options.insert(report.options.end(), options.begin(), options.end());
+  };
+  add(EchoOptions(arguments.noise));
+  if (arguments.is_filmed()) {
+    add(EchoOptions(arguments.video));
+    add(EchoOptions(arguments.sensor));
+  }
+  return report;
 }
 
 }  // namespace
@@ -48,32 +101,22 @@ ExitCode SynthesizeCommand(const std::vector<std::string>& arguments) {
   VerbLine line("articap synthesize",
                 "A recording of somebody who never lived, with the truth about it: take.c3d,\n"
                 "markers.toml, labels.TextGrid, truth.csv, truth.pose.csv, truth.toml,\n"
-                "truth.faults.csv in the folder OUT.",
+                "truth.faults.csv in the folder OUT. With --video also the videos of cameras that\n"
+                "film the speaker with its dots, and truth.calibration.toml, truth.dots.csv.",
                 "articap synthesize take01 --sentences 5 --seed 7 --noise-mm 0.2 --dropout 0.02");
-  std::string folder, rig_folder, map = "spectacles30";
-  SyntheticTakeOptions take_options;
-  SyntheticNoiseOptions noise_options;
-  line.Argument("OUT", folder, "folder to write");
-  line.Flag("--rig", rig_folder, "DIR", "folder of the speaker's rig; else the default head");
-  line.Flag("--map", map, "NAME|FILE", "which markers are worn, and where")->capture_default_str();
-  line.Stage("synthesize", take_options);
-  line.Stage("noise", noise_options);
+  SynthesizeArguments values;
+  line.Argument("OUT", values.folder, "folder to write");
+  line.Flag("--rig", values.rig_folder, "DIR",
+            "folder of the speaker's rig; else the default head");
+  line.Flag("--map", values.map, "NAME|FILE", "which markers are worn, and where")
+      ->capture_default_str();
+  line.Stage("synthesize", values.take);
+  line.Stage("noise", values.noise);
+  line.Stage("video", values.video);
+  line.Stage("sensor", values.sensor, "sensor");
   if (const auto exit = line.Parse(arguments)) return *exit;
-
-  if (const auto checked = CheckOptions(noise_options); !checked) return FailWith(checked.error());
-  const Result<SyntheticTake> take = Synthesize(rig_folder, map, take_options);
-  if (!take) return FailWith(take.error());
-  const DisturbedRecording disturbed =
-      AddNoise(take->markers, noise_options, static_cast<std::uint64_t>(take_options.seed));
-  OutputSet outputs;
-  for (OutputFile& file : FilesOf(*take, disturbed, noise_options))
-    outputs.Add(std::filesystem::path(folder) / file.name, std::move(file.bytes));
-  if (const auto allowed = outputs.RefuseToOverwrite({MapInput(map), line.config_path()}); !allowed)
-    return FailWith(allowed.error());
-  if (const auto written = outputs.Commit(); !written) return FailWith(written.error());
-  StageReport report = DescribeTake(*take, disturbed, folder);
-  for (auto& option : EchoOptions(noise_options)) report.options.push_back(std::move(option));
-  return line.Finish({report});
+  const Result<StageReport> report = RunSynthesize(values, line.config_path());
+  return report ? line.Finish({*report}) : FailWith(report.error());
 }
 
 }  // namespace articap

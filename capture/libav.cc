@@ -32,6 +32,11 @@ void Free::operator()(AVIOContext* context) const {
   avio_context_free(&context);
 }
 
+void SilenceMessages() {
+  static std::once_flag once;
+  std::call_once(once, [] { av_log_set_level(AV_LOG_QUIET); });
+}
+
 std::string ErrorText(int code) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
   av_strerror(code, text.data(), text.size());
@@ -110,12 +115,6 @@ class ByteSource {
 };
 
 namespace {
-
-// Held back: what matters of it comes as errors and notes.
-void SilenceMessages() {
-  static std::once_flag once;
-  std::call_once(once, [] { av_log_set_level(AV_LOG_QUIET); });
-}
 
 // Formats of text that libav would draw as if it were a film.
 bool IsDrawnText(const AVInputFormat& format) {

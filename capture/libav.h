@@ -32,6 +32,9 @@ struct Free {
 template <class T>
 using Owner = std::unique_ptr<T, Free>;
 
+// Keeps libav from printing: what matters comes as errors and notes.
+void SilenceMessages();
+
 // What libav's error code means, in its words.
 std::string ErrorText(int code);
 

@@ -118,8 +118,12 @@ class Shader {
     if (lambert.x() <= 0) return;
     if (options_.shadows && traced_.IsBlocked(surface.start_mm, towards)) return;
     diffuse += light.radiance.cwiseProduct(lambert);
-    if (cosine <= 0 || surface.material->gloss <= 0) return;
+    if (cosine <= 0) return;
     const Vector3f halfway = (towards - direction).normalized();
+    if (surface.disc < 0 && surface.sphere < 0)
+      for (const RenderWetSpot& wet : scene_.wet_spots)
+        highlight += wet.ShineAt(surface.position_mm, surface.normal, halfway) * light.radiance;
+    if (surface.material->gloss <= 0) return;
     // Schlick's Fresnel term at 4 % normal reflectance, scaled so that gloss 1 is a wet surface.
     const float grazing = std::pow(1 - std::max(0.0f, halfway.dot(towards)), 5.0f);
     const float fresnel = 0.04f + 0.96f * grazing;
@@ -145,27 +149,27 @@ Eigen::Vector2d PlaceInPixel(int row, int column, int per_side, const Vector2f& 
   return {x - std::floor(x) - 0.5, y - std::floor(y) - 0.5};
 }
 
-// Renders rows of a picture; knows how many samples a pixel needs.
+// What pixels see.
 class PixelSampler {
  public:
   PixelSampler(const Scene& scene, const ViewCamera& camera, const RenderOptions& options)
-      : scene_(scene), camera_(camera), options_(options), shader_(scene, options) {}
+      : scene_(scene), camera_(camera), shader_(scene, options) {}
 
   // What the middle of a pixel sees.
   Vector3f Middle(int x, int y) const {
     return LightAt(Eigen::Vector2d(x, y), SampleSequence(x, y), 0);
   }
 
-  Vector3f Average(int x, int y) const {
+  // The mean over a pixel, of the square of so many samples.
+  Vector3f Average(int x, int y, int samples_per_side) const {
     const SampleSequence sequence(x, y);
     const Vector2f shift = sequence.Sample(0, SampleSequence::kInPixel);
     Vector3f sum = Vector3f::Zero();
     int index = 0;
-    for (int row = 0; row < options_.samples_per_side; ++row)
-      for (int column = 0; column < options_.samples_per_side; ++column, ++index)
-        sum += LightAt(
-            Eigen::Vector2d(x, y) + PlaceInPixel(row, column, options_.samples_per_side, shift),
-            sequence, index);
+    for (int row = 0; row < samples_per_side; ++row)
+      for (int column = 0; column < samples_per_side; ++column, ++index)
+        sum += LightAt(Eigen::Vector2d(x, y) + PlaceInPixel(row, column, samples_per_side, shift),
+                       sequence, index);
     return sum / static_cast<float>(index);
   }
 
@@ -178,36 +182,165 @@ class PixelSampler {
 
   const Scene& scene_;
   const ViewCamera& camera_;
-  const RenderOptions& options_;
   Shader shader_;
 };
 
-// Whether a pixel and its eight neighbours differ by less than this in every colour. At the border
-// of the picture, where not all are there, they count as different.
-bool IsUniform(const LinearPicture& middles, int x, int y, double less_than) {
-  if (x == 0 || y == 0 || x == middles.width - 1 || y == middles.height - 1) return false;
-  const Vector3f& middle = middles.rgb[static_cast<std::size_t>(y) * middles.width + x];
-  for (int row = y - 1; row <= y + 1; ++row)
-    for (int column = x - 1; column <= x + 1; ++column) {
-      const Vector3f& other = middles.rgb[static_cast<std::size_t>(row) * middles.width + column];
-      if (!((other - middle).cwiseAbs().maxCoeff() < less_than)) return false;
-    }
+// Whether a pixel is less than this off halfway between its neighbours `step_px` to either side, in
+// every colour and in all four directions. At the border of the picture, where not all are there,
+// it counts as off.
+bool IsEven(const LinearPicture& middles, int x, int y, int step_px, double less_than) {
+  if (x < step_px || y < step_px || x >= middles.width - step_px || y >= middles.height - step_px)
+    return false;
+  const auto at = [&](int column, int row) -> const Vector3f& {
+    return middles.rgb[static_cast<std::size_t>(row) * middles.width + column];
+  };
+  const Vector3f& middle = at(x, y);
+  for (const auto& [across, down] :
+       {std::pair(1, 0), std::pair(0, 1), std::pair(1, 1), std::pair(1, -1)}) {
+    const Vector3f& before = at(x - step_px * across, y - step_px * down);
+    const Vector3f& behind = at(x + step_px * across, y + step_px * down);
+    if (!((0.5f * (before + behind) - middle).cwiseAbs().maxCoeff() < less_than)) return false;
+  }
   return true;
 }
 
-// Calls fill_row(y) for every row of a picture, in several threads.
+// Rows of a picture, or of the nodes in it; the end is excluded.
+struct RowRange {
+  int begin = 0;
+  int end = 0;
+};
+
+// Calls fill_row(y) for every row, in several threads.
 template <class FillRow>
-void ForEachRow(int height, int num_threads, const FillRow& fill_row) {
-  std::atomic<int> next_row = 0;
+void ForEachRow(const RowRange& rows, int num_threads, const FillRow& fill_row) {
+  std::atomic<int> next_row = rows.begin;
   const auto fill_rows = [&] {
-    for (int y = next_row++; y < height; y = next_row++) fill_row(y);
+    for (int y = next_row++; y < rows.end; y = next_row++) fill_row(y);
   };
   std::vector<std::jthread> helpers;
   for (int i = 1; i < num_threads; ++i) helpers.emplace_back(fill_rows);
   fill_rows();
 }
 
+// Whether each pixel of a picture is in one of the spots.
+std::vector<std::uint8_t> MaskOf(const std::vector<PictureSpot>& spots, int width, int height) {
+  std::vector<std::uint8_t> mask(static_cast<std::size_t>(width) * height, 0);
+  for (const PictureSpot& spot : spots) {
+    const auto first = [&](double center_px) {
+      return static_cast<int>(std::max(0.0, std::ceil(center_px - spot.radius_px)));
+    };
+    const auto last = [&](double center_px, int size) {
+      return static_cast<int>(std::min(size - 1.0, std::floor(center_px + spot.radius_px)));
+    };
+    for (int y = first(spot.center_px.y()); y <= last(spot.center_px.y(), height); ++y)
+      for (int x = first(spot.center_px.x()); x <= last(spot.center_px.x(), width); ++x)
+        if ((Eigen::Vector2d(x, y) - spot.center_px).norm() <= spot.radius_px)
+          mask[static_cast<std::size_t>(y) * width + x] = 1;
+  }
+  return mask;
+}
+
+// What the middles of pixels see, of which few are looked at where a picture is even.
+class MiddleFinder {
+ public:
+  MiddleFinder(const PixelSampler& sampler, const RenderOptions& options,
+               const std::vector<std::uint8_t>& in_spot, LinearPicture& middles)
+      : sampler_(sampler), options_(options), in_spot_(in_spot), middles_(middles) {}
+
+  // For rows of pixels and their neighbours: first the pixels on every so-manieth row and column,
+  // two such rows farther than they are asked for; then those between.
+  void Fill(const RowRange& rows) const {
+    const int step = options_.step_px;
+    const RowRange cells = Within(rows.begin - 1, rows.end + 1);
+    const RowRange nodes = Within(rows.begin - 1 - step, rows.end + 1 + 2 * step);
+    ForEachRow(nodes, options_.num_threads, [&](int node_row) {
+      for (int x = 0; x < middles_.width; x += step) Look(x, node_row * step);
+    });
+    if (step == 1) return;
+    ForEachRow(cells, options_.num_threads, [&](int node_row) {
+      for (int x = 0; x < middles_.width; x += step) FillCell(x, node_row * step);
+    });
+  }
+
+ private:
+  Vector3f& at(int x, int y) const {
+    return middles_.rgb[static_cast<std::size_t>(y) * middles_.width + x];
+  }
+  void Look(int x, int y) const { at(x, y) = sampler_.Middle(x, y); }
+
+  // The rows of nodes, and of the cells below them, that have these rows of pixels.
+  RowRange Within(int first_row, int end_row) const {
+    const int step = options_.step_px;
+    return {std::max(0, first_row) / step, (std::min(middles_.height, end_row) + step - 1) / step};
+  }
+
+  bool IsEvenCell(int left, int top) const {
+    const int step = options_.step_px;
+    for (int y = top; y <= top + step; ++y)
+      for (int x = left; x <= left + step; ++x)
+        if (x >= middles_.width || y >= middles_.height ||
+            in_spot_[static_cast<std::size_t>(y) * middles_.width + x] != 0)
+          return false;
+    for (const int y : {top, top + step})
+      for (const int x : {left, left + step})
+        if (!IsEven(middles_, x, y, step, options_.one_sample_below)) return false;
+    return true;
+  }
+
+  // The pixels from a node up to the next ones.
+  void FillCell(int left, int top) const {
+    const int step = options_.step_px;
+    const bool even = IsEvenCell(left, top);
+    for (int y = top; y < std::min(top + step, middles_.height); ++y)
+      for (int x = left; x < std::min(left + step, middles_.width); ++x) {
+        if (x == left && y == top) continue;
+        if (!even) {
+          Look(x, y);
+          continue;
+        }
+        const float right = static_cast<float>(x - left) / static_cast<float>(step);
+        const float below = static_cast<float>(y - top) / static_cast<float>(step);
+        at(x, y) =
+            (1 - below) * ((1 - right) * at(left, top) + right * at(left + step, top)) +
+            below * ((1 - right) * at(left, top + step) + right * at(left + step, top + step));
+      }
+  }
+
+  const PixelSampler& sampler_;
+  const RenderOptions& options_;
+  const std::vector<std::uint8_t>& in_spot_;
+  LinearPicture& middles_;
+};
+
+// Looks at a pixel as often as it needs.
+LinearPicture RenderAdaptively(const PixelSampler& sampler, const RenderOptions& options, int width,
+                               int height, const RowRange& rows) {
+  const std::vector<std::uint8_t> in_spot = MaskOf(options.spots, width, height);
+  LinearPicture middles{width, height, std::vector<Vector3f>(in_spot.size())};
+  const MiddleFinder finder(sampler, options, in_spot, middles);
+  finder.Fill(rows);
+  LinearPicture picture{width, height, std::vector<Vector3f>(in_spot.size(), Vector3f::Zero())};
+  ForEachRow(rows, options.num_threads, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * width + x;
+      picture.rgb[pixel] = middles.rgb[pixel];
+      if (IsEven(middles, x, y, 1, options.one_sample_below)) continue;
+      picture.rgb[pixel] = sampler.Average(
+          x, y, in_spot[pixel] != 0 ? options.samples_per_side_in_spots : options.samples_per_side);
+    }
+  });
+  return picture;
+}
+
 }  // namespace
+
+float RenderWetSpot::ShineAt(const Vector3f& position_mm, const Vector3f& normal,
+                             const Vector3f& halfway) const {
+  const auto part = static_cast<float>((position_mm.cast<double>() - center_mm).norm() / radius_mm);
+  if (part >= 1) return 0;
+  const float left = 1 - part * part;
+  return gloss * left * std::pow(std::max(0.0f, normal.dot(halfway)), shininess);
+}
 
 std::vector<DirectionalLight> PortraitLights() {
   return {{{0.55, 0.75, 0.95}, {0.98f, 0.93f, 0.86f}, 0.16},
@@ -221,24 +354,16 @@ LinearPicture RenderLinear(const Scene& scene, const ViewCamera& camera,
   const int width = camera.width();
   const int height = camera.height();
   ARTICAP_CHECK(width > 0 && height > 0);
+  ARTICAP_CHECK(options.step_px > 0 && options.samples_per_side_in_spots > 0);
   const PixelSampler sampler(scene, camera, options);
-  LinearPicture middles{width, height, {}};
-  if (options.one_sample_below > 0) {
-    middles.rgb.resize(static_cast<std::size_t>(width) * height);
-    ForEachRow(height, options.num_threads, [&](int y) {
-      for (int x = 0; x < width; ++x)
-        middles.rgb[static_cast<std::size_t>(y) * width + x] = sampler.Middle(x, y);
-    });
-  }
-  LinearPicture picture{width, height, {}};
-  picture.rgb.resize(static_cast<std::size_t>(width) * height);
-  ForEachRow(height, options.num_threads, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const std::size_t pixel = static_cast<std::size_t>(y) * width + x;
-      const bool enough =
-          options.one_sample_below > 0 && IsUniform(middles, x, y, options.one_sample_below);
-      picture.rgb[pixel] = enough ? middles.rgb[pixel] : sampler.Average(x, y);
-    }
+  const RowRange rows{std::max(0, options.first_row), std::min(height, options.end_row)};
+  if (options.one_sample_below > 0) return RenderAdaptively(sampler, options, width, height, rows);
+  const std::size_t num_pixels = static_cast<std::size_t>(width) * height;
+  LinearPicture picture{width, height, std::vector<Vector3f>(num_pixels, Vector3f::Zero())};
+  ForEachRow(rows, options.num_threads, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      picture.rgb[static_cast<std::size_t>(y) * width + x] =
+          sampler.Average(x, y, options.samples_per_side);
   });
   return picture;
 }

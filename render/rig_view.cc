@@ -64,18 +64,22 @@ Material MaterialOfPart(std::string_view part_name) {
 
 Scene SceneOf(const FaceRig& rig, const Eigen::VectorXd& parameters,
               const RigViewOptions& options) {
+  return SceneOf(rig, rig.Evaluate(parameters), options);
+}
+
+Scene SceneOf(const FaceRig& rig, const std::vector<Eigen::Vector3d>& posed_mm,
+              const RigViewOptions& options) {
   const RigDefinition& definition = rig.definition();
-  const std::vector<Eigen::Vector3d> posed = rig.Evaluate(parameters);
   Scene scene;
   for (std::size_t part = 0; part < definition.part_names.size(); ++part) {
     if (definition.part_names[part] == "spectacles" && !options.show_spectacles) continue;
-    RenderMesh mesh = MeshOfPart(definition, posed, part);
+    RenderMesh mesh = MeshOfPart(definition, posed_mm, part);
     if (!mesh.mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
   }
   scene.spheres = options.markers;
   if (options.show_landmarks)
     for (const Landmark& landmark : definition.landmarks)
-      scene.spheres.push_back({posed[landmark.vertex],
+      scene.spheres.push_back({posed_mm[landmark.vertex],
                                options.landmark_radius_mm,
                                {0.8f, 0.03f, 0.02f},
                                {0.2f, 30.0f, 0.0f, 0.3f}});

@@ -20,6 +20,9 @@ struct RigViewOptions {
 // A pose of the rig, lit for a portrait; each part has smooth normals of its own.
 Scene SceneOf(const FaceRig& rig, const Eigen::VectorXd& parameters,
               const RigViewOptions& options = {});
+// The same of a pose whose vertices are known, in whatever frame these are.
+Scene SceneOf(const FaceRig& rig, const std::vector<Eigen::Vector3d>& posed_mm,
+              const RigViewOptions& options = {});
 
 // How a part of a rig shines, by its name; skin where the name is not known.
 Material MaterialOfPart(std::string_view part_name);

@@ -33,6 +33,31 @@ struct RenderSphere {
   Material material = {};
 };
 
+// A flat round sticker, seen from its front alone. It lies on a surface that need not be flat: what
+// of that rises over it by up to give_mm beneath it gives way, so that its outline is the circle's.
+// It throws no shadow.
+struct RenderDisc {
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, out of its front
+  double radius_mm = 2;
+  double give_mm = 1;
+  Eigen::Vector3f color = Eigen::Vector3f::Ones();  // linear RGB
+  Material material = {};
+};
+
+// A wet or greasy place of the meshes, which shines more sharply than their material.
+struct RenderWetSpot {
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
+  double radius_mm = 5;  // where the shine has faded
+  float gloss = 1.5f;    // of a lamp's radiance, where it is reflected to the viewer
+  float shininess = 250;
+
+  // What a place with this unit normal shines, before the lamp's colour. halfway: between the
+  // directions to the lamp and to the viewer, unit.
+  float ShineAt(const Eigen::Vector3f& position_mm, const Eigen::Vector3f& normal,
+                const Eigen::Vector3f& halfway) const;
+};
+
 // A rectangular plane mirror in a frame. It turns rays of sight alone: it neither throws shadows
 // nor lights, and its glass has no reflection of its own.
 struct RenderMirror {
@@ -63,6 +88,8 @@ std::vector<DirectionalLight> PortraitLights();
 struct Scene {
   std::vector<RenderMesh> meshes;
   std::vector<RenderSphere> spheres;
+  std::vector<RenderDisc> discs = {};
+  std::vector<RenderWetSpot> wet_spots = {};
   std::vector<RenderMirror> mirrors = {};
   std::vector<DirectionalLight> lights = PortraitLights();
   Eigen::Vector3f ambient = Eigen::Vector3f(0.29f, 0.30f, 0.32f);  // from all sides, linear RGB

@@ -33,6 +33,33 @@ void SetRay(RTCRay& ray, const Vector3f& origin_mm, const Vector3f& direction, f
   ray.mask = 0xFFFFFFFFu;
 }
 
+// The nearest thing along a ray, if it is nearer than `distance_mm`.
+std::optional<RTCRayHit> NearestHit(RTCScene traced, const SightRay& ray, double distance_mm) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query{};
+  SetRay(query.ray, ray.origin_mm.cast<float>(), ray.direction.cast<float>(),
+         static_cast<float>(distance_mm));
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(traced, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return query;
+}
+
+// Whether a point of a disc shows where there is also another surface: it lies before that, or that
+// gives way to it.
+bool LiesOn(const RenderDisc& disc, const SurfacePoint& of_disc, const SurfacePoint& other,
+            const SightRay& ray) {
+  const Vector3f beyond_mm = other.position_mm - of_disc.position_mm;
+  if (beyond_mm.dot(ray.direction.cast<float>()) >= 0) return true;
+  const Eigen::Vector3d arm_mm = other.position_mm.cast<double>() - disc.center_mm;
+  const double height_mm = arm_mm.dot(disc.normal);
+  // A little more than what is beneath, since that is bent where a sticker ends.
+  constexpr double kBeneath = 1.25;
+  return height_mm <= disc.give_mm &&
+         (arm_mm - height_mm * disc.normal).norm() <= kBeneath * disc.radius_mm;
+}
+
 }  // namespace
 
 void TracedScene::Release::operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
@@ -46,6 +73,7 @@ TracedScene::TracedScene(const Scene& scene)
   for (const RenderMesh& mesh : scene.meshes) AddMesh(mesh);
   AddSpheres(scene.spheres);
   rtcCommitScene(traced_.get());
+  if (!scene.discs.empty()) AddDiscs(scene.discs);
   for (const RenderMirror& mirror : scene.mirrors) mirrors_.emplace_back(mirror);
 }
 
@@ -74,21 +102,36 @@ SightEnd TracedScene::Follow(const SightRay& ray_of_sight) const {
 
 std::optional<SurfacePoint> TracedScene::FindSurface(const SightRay& ray,
                                                      double distance_mm) const {
-  const Vector3f origin_mm = ray.origin_mm.cast<float>();
-  const Vector3f direction = ray.direction.cast<float>();
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit query{};
-  SetRay(query.ray, origin_mm, direction, static_cast<float>(distance_mm));
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(traced_.get(), &context, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const auto hit = NearestHit(traced_.get(), ray, distance_mm);
+  std::optional<SurfacePoint> surface;
+  if (hit) {
+    surface.emplace();
+    surface->position_mm =
+        ray.origin_mm.cast<float>() + hit->ray.tfar * ray.direction.cast<float>();
+    if (hit->hit.geomID < scene_.meshes.size())
+      DescribeTriangle(hit->hit, ray.direction.cast<float>(), *surface);
+    else
+      DescribeSphere(hit->hit, *surface);
+  }
+  if (!traced_discs_) return surface;
+  const auto disc = FindDisc(ray, distance_mm);
+  return disc && (!surface || LiesOn(scene_.discs[disc->disc], *disc, *surface, ray)) ? disc
+                                                                                      : surface;
+}
+
+std::optional<SurfacePoint> TracedScene::FindDisc(const SightRay& ray, double distance_mm) const {
+  const auto hit = NearestHit(traced_discs_.get(), ray, distance_mm);
+  if (!hit) return std::nullopt;
+  const RenderDisc& disc = scene_.discs[hit->hit.primID];
+  if (disc.normal.dot(ray.direction) >= 0) return std::nullopt;
   SurfacePoint surface;
-  surface.position_mm = origin_mm + query.ray.tfar * direction;
-  if (query.hit.geomID < scene_.meshes.size())
-    DescribeTriangle(query.hit, direction, surface);
-  else
-    DescribeSphere(query.hit, surface);
+  surface.position_mm = ray.origin_mm.cast<float>() + hit->ray.tfar * ray.direction.cast<float>();
+  surface.normal = disc.normal.cast<float>();
+  surface.start_mm =
+      surface.position_mm + (static_cast<float>(disc.give_mm) + kLiftOff_mm) * surface.normal;
+  surface.color = disc.color;
+  surface.material = &disc.material;
+  surface.disc = static_cast<int>(hit->hit.primID);
   return surface;
 }
 
@@ -102,9 +145,9 @@ bool TracedScene::IsBlocked(const Vector3f& origin_mm, const Vector3f& direction
   return ray.tfar < 0;
 }
 
-void TracedScene::Attach(RTCGeometryTy* geometry, std::size_t id) {
+void TracedScene::Attach(RTCGeometryTy* geometry, std::size_t id, RTCSceneTy* traced) {
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(traced_.get(), geometry, static_cast<unsigned>(id));
+  rtcAttachGeometryByID(traced, geometry, static_cast<unsigned>(id));
   rtcReleaseGeometry(geometry);
 }
 
@@ -128,7 +171,7 @@ void TracedScene::AddMesh(const RenderMesh& mesh) {
   for (const Eigen::Vector3i& triangle : triangles)
     for (const int corner : {triangle[0], triangle[1], triangle[2]})
       *corners++ = static_cast<std::uint32_t>(corner);
-  Attach(geometry, normals_.size() - 1);
+  Attach(geometry, normals_.size() - 1, traced_.get());
 }
 
 void TracedScene::AddSpheres(const std::vector<RenderSphere>& spheres) {
@@ -140,7 +183,23 @@ void TracedScene::AddSpheres(const std::vector<RenderSphere>& spheres) {
     for (int axis = 0; axis < 3; ++axis) *values++ = static_cast<float>(sphere.center_mm[axis]);
     *values++ = static_cast<float>(sphere.radius_mm);
   }
-  Attach(geometry, scene_.meshes.size());
+  Attach(geometry, scene_.meshes.size(), traced_.get());
+}
+
+void TracedScene::AddDiscs(const std::vector<RenderDisc>& discs) {
+  traced_discs_.reset(rtcNewScene(device_.get()));
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+  auto* places = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), discs.size()));
+  auto* normals = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), discs.size()));
+  for (const RenderDisc& disc : discs) {
+    for (int axis = 0; axis < 3; ++axis) *places++ = static_cast<float>(disc.center_mm[axis]);
+    *places++ = static_cast<float>(disc.radius_mm);
+    for (int axis = 0; axis < 3; ++axis) *normals++ = static_cast<float>(disc.normal[axis]);
+  }
+  Attach(geometry, 0, traced_discs_.get());
+  rtcCommitScene(traced_discs_.get());
 }
 
 // Smooth normal and colour. Shadow rays start on the curved surface that the normals describe
@@ -183,6 +242,7 @@ void TracedScene::DescribeSphere(const RTCHit& hit, SurfacePoint& surface) const
   surface.normal = (surface.position_mm - sphere.center_mm.cast<float>()).normalized();
   surface.color = sphere.color;
   surface.material = &sphere.material;
+  surface.sphere = static_cast<int>(hit.primID);
   surface.start_mm = surface.position_mm + kLiftOff_mm * surface.normal;
 }
 

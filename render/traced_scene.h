@@ -26,6 +26,9 @@ struct SurfacePoint {
   Eigen::Vector3f normal;    // smooth, unit, towards the viewer
   Eigen::Vector3f color;
   const Material* material = nullptr;
+  // Index of the scene's disc or sphere that this is of; -1: of none.
+  int disc = -1;
+  int sphere = -1;
 };
 
 // Where a ray of sight ends, by way of mirrors.
@@ -39,6 +42,11 @@ struct SightEnd {
   static constexpr int kMostMirrors = 8;
   int num_mirrors = 0;
   int mirrors[kMostMirrors] = {};
+
+  // Whether the way leads by this mirror and no other; -1: by none.
+  bool IsBy(int mirror) const {
+    return mirror < 0 ? num_mirrors == 0 : num_mirrors == 1 && mirrors[0] == mirror;
+  }
 };
 
 // A scene made ready for rays. The scene must outlive it. Surfaces are kept in float32: at 1 m a
@@ -58,20 +66,24 @@ class TracedScene {
     void operator()(RTCSceneTy* traced) const;
   };
 
-  void Attach(RTCGeometryTy* geometry, std::size_t id);
+  static void Attach(RTCGeometryTy* geometry, std::size_t id, RTCSceneTy* traced);
   void AddMesh(const RenderMesh& mesh);
   void AddSpheres(const std::vector<RenderSphere>& spheres);
+  void AddDiscs(const std::vector<RenderDisc>& discs);
   // The nearest surface along a ray, if it is nearer than `distance_mm`.
   std::optional<SurfacePoint> FindSurface(const SightRay& ray, double distance_mm) const;
   void DescribeTriangle(const RTCHit& hit, const Eigen::Vector3f& direction,
                         SurfacePoint& surface) const;
   void DescribeSphere(const RTCHit& hit, SurfacePoint& surface) const;
+  // The nearest disc along a ray, if it shows its front.
+  std::optional<SurfacePoint> FindDisc(const SightRay& ray, double distance_mm) const;
 
   const Scene& scene_;
   std::vector<std::vector<Eigen::Vector3f>> normals_;
   std::vector<MirrorPlane> mirrors_;
   std::unique_ptr<RTCDeviceTy, Release> device_;
   std::unique_ptr<RTCSceneTy, Release> traced_;
+  std::unique_ptr<RTCSceneTy, Release> traced_discs_;  // null where there are none
 };
 
 }  // namespace articap

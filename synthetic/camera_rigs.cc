@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <system_error>
 
 #include "core/check.h"
 #include "synthetic/random.h"
@@ -40,6 +43,25 @@ Camera MakeCamera(std::string name, const LookAt& look_at, const CameraModel& mo
   camera.lens = RandomLens(model, random);
   camera.cam_from_stage = CamFromStage(look_at);
   return camera;
+}
+
+// A mirror at 45 degrees beside the left (side 1) or right (side -1) cheek, which shows its side of
+// the face from the ear to before the nose.
+void AddMirror(const std::string& name, double side, double glass_mm, RandomGenerator& random,
+               SyntheticCameras& cameras) {
+  MirrorOutline outline;
+  outline.center_in_stage_mm = {side * 190, 0, 10};
+  outline.width_mm = 250;
+  Mirror mirror;
+  mirror.name = name;
+  mirror.camera = 0;
+  mirror.glass_mm = glass_mm;
+  // From +z to the face; a carpenter's 45 degrees are a degree off.
+  mirror.normal_in_stage =
+      (Eigen::Vector3d(side, 0, -1).normalized() + 0.01 * random.NormalVector()).normalized();
+  mirror.distance_mm = mirror.normal_in_stage.dot(outline.center_in_stage_mm);
+  cameras.array.mirrors.push_back(mirror);
+  cameras.outlines.push_back(outline);
 }
 
 }  // namespace
@@ -102,19 +124,39 @@ SyntheticCameras MirrorSetUp(double glass_mm, std::uint64_t seed, const CameraMo
   // The camera looks between the face and the mirror, so that both are in the picture.
   const LookAt look_at{{95, 10, 700}, Eigen::Vector3d(95, 0, 0) + 3 * random.NormalVector()};
   cameras.array.cameras = {MakeCamera("front", look_at, model, random)};
-  MirrorOutline outline;
-  outline.center_in_stage_mm = {170, 0, -10};
-  Mirror mirror;
-  mirror.name = "left";
-  mirror.camera = 0;
-  mirror.glass_mm = glass_mm;
-  // From +z to the face at -x; a carpenter's 45 degrees are a degree off.
-  mirror.normal_in_stage =
-      (Eigen::Vector3d(1, 0, -1).normalized() + 0.01 * random.NormalVector()).normalized();
-  mirror.distance_mm = mirror.normal_in_stage.dot(outline.center_in_stage_mm);
-  cameras.array.mirrors = {mirror};
-  cameras.outlines = {outline};
+  AddMirror("left", 1, glass_mm, random, cameras);
   return cameras;
+}
+
+SyntheticCameras TwoMirrorSetUp(double glass_mm, std::uint64_t seed, const CameraModel& model) {
+  RandomGenerator random(seed, random_streams::kCameras);
+  SyntheticCameras cameras;
+  cameras.array.source = fmt::format("a synthetic camera with two mirrors, seed {}", seed);
+  const LookAt look_at{{0, 10, 850}, 3 * random.NormalVector()};
+  cameras.array.cameras = {MakeCamera("front", look_at, model, random)};
+  AddMirror("left", 1, glass_mm, random, cameras);
+  AddMirror("right", -1, glass_mm, random, cameras);
+  return cameras;
+}
+
+Result<SyntheticCameras> CamerasByName(const std::string& name, double glass_mm, std::uint64_t seed,
+                                       const CameraModel& model) {
+  constexpr int kMostCameras = 16;
+  if (name == "mirror") return MirrorSetUp(glass_mm, seed, model);
+  if (name == "two-mirrors") return TwoMirrorSetUp(glass_mm, seed, model);
+  int num_cameras = 0;
+  const std::string_view ring = "ring";
+  if (name.starts_with(ring)) {
+    const char* const end = name.data() + name.size();
+    const auto parsed = std::from_chars(name.data() + ring.size(), end, num_cameras);
+    if (parsed.ec == std::errc() && parsed.ptr == end && num_cameras >= 1 &&
+        num_cameras <= kMostCameras)
+      return RingOfCameras(num_cameras, seed, model);
+  }
+  return Fail(
+      fmt::format("there is no set-up of cameras '{}'; there are mirror, two-mirrors, and "
+                  "ring1 to ring{}",
+                  name, kMostCameras));
 }
 
 }  // namespace articap

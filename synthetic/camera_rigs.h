@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/camera.h"
+#include "core/result.h"
 #include "render/scene.h"
 #include "render/view_camera.h"
 
@@ -45,5 +47,13 @@ SyntheticCameras RingOfCameras(int num_cameras, std::uint64_t seed, const Camera
 // One camera 700 mm before the speaker and a mirror at 45 degrees beside the left cheek, which
 // shows the face in profile (Rademan and Niesler's set-up). glass_mm: of a second-surface mirror.
 SyntheticCameras MirrorSetUp(double glass_mm, std::uint64_t seed, const CameraModel& model = {});
+
+// The same with a second mirror beside the right cheek, and the camera 850 mm straight before the
+// face.
+SyntheticCameras TwoMirrorSetUp(double glass_mm, std::uint64_t seed, const CameraModel& model = {});
+
+// By name: "mirror", "two-mirrors", or "ring4" for a ring of so many cameras, 1 to 16.
+Result<SyntheticCameras> CamerasByName(const std::string& name, double glass_mm, std::uint64_t seed,
+                                       const CameraModel& model);
 
 }  // namespace articap

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "synthetic/sensor.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -138,6 +140,37 @@ std::vector<Plane> PlanesOf(const LinearPicture& picture, PixelFormat format) {
 }
 
 }  // namespace
+
+void VisitOptions(SensorOptions& options, OptionVisitor& visit) {
+  visit.Enumeration("format", options.format, {"gray8", "gray16", "rgb8"}, "what a pixel holds");
+  visit("blur_px", options.blur_px, "SD of the lens' Gaussian blur; px");
+  visit("defocus_px", options.defocus_px, "radius of what a point out of focus becomes; px");
+  visit("vignetting", options.vignetting, "part of the light that the farthest corner loses");
+  visit("exposure", options.exposure, "part of the range that the brightest white fills");
+  visit("noise", options.noise, "of photons and of reading out");
+  visit("full_well_e", options.full_well_e, "electrons that fill a pixel");
+  visit("read_noise_e", options.read_noise_e, "SD of the noise of reading out; electrons");
+  visit("black_level", options.black_level, "part of the range that shows without light");
+  visit.Enumeration("tone", options.tone, {"linear", "srgb"}, "machine vision's, or a camcorder's");
+}
+
+Result<void> CheckOptions(const SensorOptions& options) {
+  if (auto positive = RequirePositive({{"sensor_full_well_e", options.full_well_e}}); !positive)
+    return positive;
+  if (auto valid = RequireNotNegative({{"sensor_blur_px", options.blur_px},
+                                       {"sensor_defocus_px", options.defocus_px},
+                                       {"sensor_exposure", options.exposure},
+                                       {"sensor_read_noise_e", options.read_noise_e}});
+      !valid)
+    return valid;
+  if (!(options.vignetting >= 0 && options.vignetting <= 1))
+    return Fail(
+        fmt::format("sensor_vignetting is {}; it must be between 0 and 1", options.vignetting));
+  if (!(options.black_level >= 0 && options.black_level < 1))
+    return Fail(fmt::format("sensor_black_level is {}; it must be at least 0 and below 1",
+                            options.black_level));
+  return {};
+}
 
 Image Expose(const LinearPicture& light, const SensorOptions& options, std::uint64_t seed) {
   ARTICAP_CHECK(options.full_well_e > 0 && options.exposure >= 0);

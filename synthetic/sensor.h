@@ -5,6 +5,8 @@
 #include <functional>
 
 #include "core/image.h"
+#include "core/options.h"
+#include "core/result.h"
 #include "render/picture.h"
 
 namespace articap {
@@ -27,6 +29,10 @@ struct SensorOptions {
   double black_level = 0;  // part of the range that is shown without light, so that noise has room
   ToneCurve tone = ToneCurve::kLinear;
 };
+
+void VisitOptions(SensorOptions& options, OptionVisitor& visit);
+// Names the option that makes no sense.
+Result<void> CheckOptions(const SensorOptions& options);
 
 // Takes a picture. Noise depends on the seed alone; every picture wants its own.
 Image Expose(const LinearPicture& light, const SensorOptions& options, std::uint64_t seed);

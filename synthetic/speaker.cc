@@ -95,12 +95,13 @@ Rigid3d StageFromMeanHead(std::uint64_t seed) {
   return {rotation, {x_mm, y_mm, 1200 + random.Uniform(-80, 80)}};
 }
 
-HeadPoseTrack TruePose(const std::vector<Rigid3d>& moved_from_mean, double rate_hz,
-                       std::uint64_t seed) {
-  const Rigid3d stage_from_mean = StageFromMeanHead(seed);
+HeadPoseTrack TruePose(const std::vector<Rigid3d>& moved_from_mean,
+                       const SyntheticTakeOptions& options) {
+  const Rigid3d stage_from_mean =
+      options.speaker_ahead ? Rigid3d() : StageFromMeanHead(options.seed);
   HeadPoseTrack track;
   track.mode = StabilizationMode::kRigid;
-  track.rate_hz = rate_hz;
+  track.rate_hz = options.speech.rate_hz;
   for (const Rigid3d& moved : moved_from_mean)
     track.poses.push_back({(stage_from_mean * moved).Inverse(), 0, HeadPoseStatus::kOk});
   return track;
@@ -137,6 +138,9 @@ void VisitOptions(SyntheticTakeOptions& options, OptionVisitor& visit) {
   visit("speaker_scale", options.speaker_scale, "size of the speaker's head against the rig's");
   visit("misplacement_mm", options.misplacement_mm,
         "how far beside its landmark a marker may be glued; mm");
+  visit("speaker_ahead", options.speaker_ahead,
+        "the stage is the speaker's: origin in the head, x to its left, y up, z forward; else a "
+        "room with z up. Video always has it so");
 }
 
 Eigen::VectorXd SyntheticTake::identity_values() const {
@@ -163,7 +167,7 @@ Result<SyntheticTake> SynthesizeTake(const FaceRig& rig, const MarkerSet& marker
   SyntheticTake take;
   take.truth = std::move(speech.track);
   take.labels = LabelsOf(speech.utterances);
-  take.true_pose = TruePose(motion, options.speech.rate_hz, options.seed);
+  take.true_pose = TruePose(motion, options);
   take.rig_from_head.scale = 1 / options.speaker_scale;
   take.rig_name = rig.definition().name;
   for (int i = 0; i < identity->size(); ++i)

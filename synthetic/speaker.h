@@ -30,6 +30,10 @@ struct SyntheticTakeOptions {
   double identity_spread = 0.3;  // SD of random sliders, as a fraction of their ranges
   double speaker_scale = 1;      // size of the speaker's head: mm of the speaker a mm of the rig
   double misplacement_mm = 0.5;  // how far beside its landmark a marker may be glued
+  // The stage frame is the speaker's: origin where the middle of the head is on average, x to the
+  // left, y up, z forward, as SyntheticCameras have it. Else that of a room with z up, in which the
+  // speaker looks anywhere.
+  bool speaker_ahead = false;
 };
 void VisitOptions(SyntheticTakeOptions& options, OptionVisitor& visit);
 
@@ -51,8 +55,7 @@ struct SyntheticTake {
 };
 
 // A speaker with the given rig's shape and an identity of its own, wearing the markers of the set,
-// says invented sentences while the head moves, in a stage frame that has z up and the speaker
-// looking anywhere.
+// says invented sentences while the head moves.
 Result<SyntheticTake> SynthesizeTake(const FaceRig& rig, const MarkerSet& marker_set,
                                      const SyntheticTakeOptions& options);
 

@@ -15,22 +15,21 @@ constexpr double kSamePlace_mm = 0.02;
 // Smaller differences between neighbouring pixels are none to 8 bits.
 constexpr double kPlain = 0.002;
 
-bool IsInside(const Camera& camera, const Eigen::Vector2d& point_px) {
-  return point_px.x() >= -0.5 && point_px.y() >= -0.5 && point_px.x() < camera.width - 0.5 &&
-         point_px.y() < camera.height - 0.5;
-}
-
 // Whether a ray of sight comes to a point by way of the view's mirror, and of no other.
 bool Reaches(const TracedScene& traced, const SightRay& ray, const View& view,
              const Eigen::Vector3d& point_mm, double depth_mm) {
   const SightEnd end = traced.Follow(ray);
-  if (!end.surface || end.num_mirrors != (view.mirror < 0 ? 0 : 1)) return false;
-  if (view.mirror >= 0 && end.mirrors[0] != view.mirror) return false;
+  if (!end.surface || !end.IsBy(view.mirror)) return false;
   const double away_mm = (end.surface->position_mm.cast<double>() - point_mm).norm();
   return away_mm <= depth_mm + kSamePlace_mm;
 }
 
 }  // namespace
+
+bool IsInPicture(const Camera& camera, const Eigen::Vector2d& point_px) {
+  return point_px.x() >= -0.5 && point_px.y() >= -0.5 && point_px.x() < camera.width - 0.5 &&
+         point_px.y() < camera.height - 0.5;
+}
 
 bool ViewTruth::all_visible() const {
   return std::all_of(visible.begin(), visible.end(), [](bool is_visible) { return is_visible; });
@@ -76,7 +75,8 @@ std::vector<ViewTruth> Studio::TruthOf(const Scene& scene,
     for (const Eigen::Vector3d& point_mm : points) {
       const auto point_px = Project(cameras_.array, view, point_mm);
       truth.points_px.push_back(point_px.value_or(nowhere));
-      const bool is_inside = point_px && IsInside(cameras_.array.cameras[view.camera], *point_px);
+      const bool is_inside =
+          point_px && IsInPicture(cameras_.array.cameras[view.camera], *point_px);
       const auto ray = is_inside ? lens_view(view.camera).RayThrough(*point_px) : std::nullopt;
       truth.visible.push_back(ray && Reaches(traced, *ray, view, point_mm, depth_mm));
     }

@@ -14,6 +14,9 @@
 
 namespace articap {
 
+// Whether one of a camera's pixels covers a point.
+bool IsInPicture(const Camera& camera, const Eigen::Vector2d& point_px);
+
 // What one view shows of some points.
 struct ViewTruth {
   View view;

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "core/file_io.h"
-#include "synthetic/board_scene.h"
+#include "synthetic/board_session.h"
 #include "synthetic/camera_rigs.h"
 #include "synthetic/random.h"
 #include "synthetic/random_streams.h"
@@ -35,14 +35,6 @@ struct Request {
     return {width, width * 9 / 16, full.focal_px * width / full.width};
   }
 };
-
-SensorOptions MachineVision() {
-  SensorOptions sensor;
-  sensor.blur_px = 0.7;
-  sensor.vignetting = 0.15;
-  sensor.black_level = 0.01;
-  return sensor;
-}
 
 std::string CamerasCsv(const CameraArray& array) {
   std::string text =
@@ -90,8 +82,7 @@ Result<void> WritePicture(const Request& request, const Studio& studio, const Sc
                           int camera, int picture) {
   const auto path = request.folder / studio.cameras().array.cameras[camera].name /
                     fmt::format("{:04}.png", picture);
-  const std::uint64_t picture_seed =
-      request.seed * 1000003 + static_cast<std::uint64_t>(camera) * 10007 + picture;
+  const std::uint64_t picture_seed = PictureSeed(request.seed, camera, picture);
   return WritePng(studio.Photograph(scene, camera, MachineVision(), picture_seed).view(), path);
 }
 
@@ -101,41 +92,24 @@ Result<void> WriteTruth(const Request& request, const CameraArray& array, const 
   return WriteFile(request.folder / "points.csv", points.text());
 }
 
-struct BoardSession {
-  SyntheticCameras cameras;
-  BoardSpec board;
-  BoardPoseOptions poses;
-};
+SyntheticCameras CamerasOf(const Request& request) {
+  if (request.kind == "lens") return RingOfCameras(1, request.seed, request.Model());
+  if (request.kind == "rig") return RingOfCameras(4, request.seed, request.Model());
+  return MirrorSetUp(4, request.seed, request.Model());
+}
 
-BoardSession SessionOf(const Request& request) {
-  BoardSession session;
-  session.board = {.columns = 9, .rows = 6, .square_mm = 20};
-  if (request.kind == "lens") {
-    session.cameras = RingOfCameras(1, request.seed, request.Model());
-    session.poses.reach_mm = {180, 80, 180};
-  } else if (request.kind == "rig") {
-    session.cameras = RingOfCameras(4, request.seed, request.Model());
-    session.poses.whole_in_views = 2;
-  } else {
-    session.cameras = MirrorSetUp(4, request.seed, request.Model());
-    session.board = {.columns = 8, .rows = 5, .square_mm = 12};
-    // Halfway between the camera and the mirror, so that both see the front.
-    session.poses = {.center_in_stage_mm = {-10, 0, 10},
-                     .reach_mm = {30, 40, 40},
-                     .facing_in_stage = {1, 0, 1},
-                     .most_tilt_deg = 25,
-                     .whole_in_views = 2};
-  }
+BoardSession SessionOf(const Request& request, const SyntheticCameras& cameras) {
+  BoardSession session = BoardSessionFor(cameras);
+  if (request.kind == "lens") session.ways[0].reach_mm = {180, 80, 180};
   return session;
 }
 
 Result<void> WriteBoardPictures(const Request& request) {
-  const BoardSession session = SessionOf(request);
-  const Studio studio(session.cameras);
+  const Studio studio(CamerasOf(request));
+  const BoardSession session = SessionOf(request, studio.cameras());
   const CameraArray& array = studio.cameras().array;
   const BoardPattern pattern = SquaresOf(session.board);
-  const auto poses = RandomBoardPoses(studio, session.board, pattern, session.poses,
-                                      request.pictures, request.seed);
+  const auto poses = BoardPosesOf(studio, session, request.pictures, request.seed);
   if (!poses) return tl::unexpected(poses.error());
   PointsCsv points;
   for (int picture = 0; picture < request.pictures; ++picture) {

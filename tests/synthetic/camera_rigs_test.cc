@@ -64,6 +64,22 @@ TEST(CameraRigsTest, TheMirrorShowsTheFaceInProfileBesideItself) {
   EXPECT_NEAR(ear->y(), nose->y(), 20);
 }
 
+TEST(CameraRigsTest, TwoMirrorsShowTheFaceFromEitherSide) {
+  const CameraArray array = TwoMirrorSetUp(4, 1).array;
+  ASSERT_EQ(array.mirrors.size(), 2u);
+  EXPECT_EQ(array.NameOf({0, 0}), "front/left");
+  EXPECT_EQ(array.NameOf({0, 1}), "front/right");
+  const Eigen::Vector3d nose_mm(0, 0, 125), ear_mm(0, 0, 0);
+  const auto left_nose = Project(array, {0, 0}, nose_mm), left_ear = Project(array, {0, 0}, ear_mm);
+  const auto right_nose = Project(array, {0, 1}, nose_mm);
+  const auto right_ear = Project(array, {0, 1}, ear_mm);
+  ASSERT_TRUE(left_nose && left_ear && right_nose && right_ear);
+  EXPECT_GT(left_nose->x(), left_ear->x());
+  EXPECT_LT(right_nose->x(), right_ear->x());
+  for (const auto& point_px : {*left_nose, *right_nose})
+    EXPECT_TRUE(point_px.x() > 20 && point_px.x() < 1260) << "in the picture, with room to move";
+}
+
 TEST(CameraRigsTest, RenderMirrorsAreTheMirrorsOfTheArray) {
   const SyntheticCameras set_up = MirrorSetUp(4, 1);
   const auto mirrors = set_up.RenderMirrors();
