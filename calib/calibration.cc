@@ -76,6 +76,7 @@ Calibration MakeCalibration(const std::vector<CameraSightings>& inputs,
   calibration.board = network.board;
   calibration.placements = network.placements;
   calibration.sigma_px = adjusted.sigma_px;
+  calibration.noise_px = adjusted.noise_px;
   calibration.degrees_of_freedom = adjusted.degrees_of_freedom;
   calibration.parameters = adjusted.parameters;
   calibration.covariance = adjusted.covariance;

@@ -61,7 +61,10 @@ struct Calibration {
   BoardSpec board;
   std::vector<Placement> placements;
   std::vector<SightingResult> sightings;
-  double sigma_px = 0;  // of one coordinate of a corner
+  // Standard deviation of one coordinate of a corner: of all views together, and of each of
+  // CameraArray::views().
+  double sigma_px = 0;
+  std::vector<double> noise_px;
   int degrees_of_freedom = 0;
   // Of the free parameters, in the gauge of the first camera.
   std::vector<CameraParameter> parameters;

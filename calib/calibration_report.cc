@@ -36,7 +36,7 @@ double RmsOfView_px(const Calibration& calibration, const View& view) {
 }
 
 ReportTable ViewTable(const Calibration& calibration) {
-  ReportTable table = {"view", {"sightings", "rms_px", "coverage_percent"}, {}};
+  ReportTable table = {"view", {"sightings", "rms_px", "noise_px", "coverage_percent"}, {}};
   for (const View& view : calibration.array.views()) {
     const auto sightings = std::count_if(
         calibration.sightings.begin(), calibration.sightings.end(),
@@ -45,7 +45,8 @@ ReportTable ViewTable(const Calibration& calibration) {
         view.mirror < 0 ? 100 * CoverageOf(calibration, view.camera).part() : NAN;
     table.rows.push_back(
         {calibration.array.NameOf(view),
-         {static_cast<double>(sightings), RmsOfView_px(calibration, view), coverage_percent}});
+         {static_cast<double>(sightings), RmsOfView_px(calibration, view),
+          calibration.noise_px[calibration.array.IndexOf(view)], coverage_percent}});
   }
   return table;
 }

@@ -96,13 +96,12 @@ Result<StageResult<Calibration>> CalibrateMirror(const BoardSpec& board,
   adjust.lenses = {start->freedom};
   AdjustedNetwork adjusted = AdjustAndScreen(
       *std::move(network), adjust, {options.huber_sigmas, options.set_views_aside}, set_aside);
-  adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
   if (lens_options.simplify) {
     std::vector<LensModel> models = {start->model};
     adjusted = SimplifyLenses(std::move(adjusted), lens_options, adjust, models);
   }
   Calibration calibration = MakeCalibration({camera}, adjusted, set_aside);
-  calibration.held_out = HeldOutRigidity(adjusted.network, adjust, adjusted.sigma_px);
+  calibration.held_out = HeldOutRigidity(adjusted, adjust);
   StageReport report =
       DescribeCalibration("calibrate mirror", calibration,
                           {.max_rms_px = options.max_rms_px,

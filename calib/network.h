@@ -56,7 +56,10 @@ struct AdjustOptions {
   bool free_mirrors = true;
   // Of all cameras but the first, in a moving network.
   bool free_time_offsets = false;
-  // Huber's loss from here on, px; 0: plain least squares.
+  // The noise of each view (CameraArray::views()) over the usual one: its residuals count the less.
+  // Empty: all alike.
+  std::vector<double> relative_noise;
+  // Huber's loss from here on, px of a view of the usual noise; 0: plain least squares.
   double huber_px = 0;
   int max_iterations = 100;
   // More threads add up in another order, to other last digits.
@@ -91,9 +94,10 @@ struct AdjustedNetwork {
   double solve_s = 0;
   // seen - expected, px; one list a sighting, one entry a corner.
   std::vector<std::vector<Eigen::Vector2d>> residuals_px;
-  // Standard deviation of one coordinate of a corner, without outliers (HuberSums); NaN where there
-  // are no degrees of freedom.
+  // Standard deviation of one coordinate of a corner, without outliers (HuberSums): of all views
+  // together, and of each (calib/view_noise.h). NaN where there are no degrees of freedom.
   double sigma_px = 0;
+  std::vector<double> noise_px;
   int degrees_of_freedom = 0;
   // Of the cameras' free parameters, everything else being free too. Rotations are about the
   // camera's axes (exp(w) R), mirrors by the foot of the perpendicular in the camera frame.
@@ -108,7 +112,8 @@ double RmsOf(const std::vector<Eigen::Vector2d>& residuals_px);
 
 // Bundle adjustment: lenses, camera poses, mirrors, time offsets and the board's placements that
 // together minimise the squared distances between where corners were seen and where they should
-// be. The sigmas of cameras and mirrors in the network are filled in.
+// be, over the noise of their views. The sigmas of cameras and mirrors in the network are filled
+// in.
 // Triggs et al., "Bundle adjustment - a modern synthesis", 1999.
 AdjustedNetwork Adjust(const Network& network, const AdjustOptions& options);
 

@@ -119,12 +119,10 @@ Result<StageResult<Calibration>> CalibrateRig(const BoardSpec& board,
   SetAsideUnplaced(cameras, *network, set_aside);
   AdjustedNetwork adjusted = AdjustAndScreen(
       *std::move(network), adjust, {options.huber_sigmas, options.set_views_aside}, set_aside);
-  adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
   if (lens_options.simplify)
     adjusted = SimplifyLenses(std::move(adjusted), lens_options, adjust, start->models);
   Calibration calibration = MakeCalibration(cameras, adjusted, set_aside);
-  if (!options.free_time_offsets)
-    calibration.held_out = HeldOutRigidity(adjusted.network, adjust, adjusted.sigma_px);
+  if (!options.free_time_offsets) calibration.held_out = HeldOutRigidity(adjusted, adjust);
   StageReport report =
       DescribeCalibration("calibrate rig", calibration,
                           {.max_rms_px = options.max_rms_px,
