@@ -7,12 +7,9 @@
 #include <map>
 #include <utility>
 
-#include "calib/calibration_report.h"
-#include "calib/held_out.h"
-#include "calib/lens_model.h"
 #include "calib/lens_solver.h"
 #include "calib/mirror_network.h"
-#include "calib/network_screening.h"
+#include "calib/network_calibration.h"
 
 namespace articap {
 namespace {
@@ -94,22 +91,19 @@ Result<StageResult<Calibration>> CalibrateMirror(const BoardSpec& board,
   if (!network) return tl::unexpected(network.error());
   AdjustOptions adjust;
   adjust.lenses = {start->freedom};
-  AdjustedNetwork adjusted = AdjustAndScreen(
-      *std::move(network), adjust, {options.huber_sigmas, options.set_views_aside}, set_aside);
-  if (lens_options.simplify) {
-    std::vector<LensModel> models = {start->model};
-    adjusted = SimplifyLenses(std::move(adjusted), lens_options, adjust, models);
-  }
-  Calibration calibration = MakeCalibration({camera}, adjusted, set_aside);
-  calibration.held_out = HeldOutRigidity(adjusted, adjust);
-  StageReport report =
-      DescribeCalibration("calibrate mirror", calibration,
-                          {.max_rms_px = options.max_rms_px,
-                           .max_focal_sigma_percent = lens_options.max_focal_sigma_percent,
-                           .max_rigidity_mm = options.max_rigidity_mm});
-  report.warnings.insert(report.warnings.begin(), start->warnings.begin(), start->warnings.end());
-  report.options = EchoOptions(options);
-  return StageResult<Calibration>{std::move(calibration), std::move(report)};
+  StageResult<Calibration> mirror =
+      CalibrateNetwork("calibrate mirror", {camera},
+                       {*std::move(network),
+                        std::move(adjust),
+                        {start->model},
+                        std::move(set_aside),
+                        std::move(start->warnings)},
+                       lens_options, {options.huber_sigmas, options.set_views_aside},
+                       {.max_rms_px = options.max_rms_px,
+                        .max_focal_sigma_percent = lens_options.max_focal_sigma_percent,
+                        .max_rigidity_mm = options.max_rigidity_mm});
+  mirror.report.options = EchoOptions(options);
+  return mirror;
 }
 
 }  // namespace articap
