@@ -126,12 +126,13 @@ Result<AdjustedWand> AdjustInRounds(WandNetwork network, AdjustOptions adjust,
 // Of each instant the distance between its ends, each by the rays of the cameras alone, which are
 // first brought to the instant by the motion found.
 std::vector<double> LengthsOf_mm(const WandNetwork& network, const std::vector<double>& noise_px) {
+  const std::vector<double> times_s = InstantTimes_s(network);
   std::map<int, std::array<std::vector<Sight>, 2>> sights;
   for (const WandSighting& sighting : network.sightings) {
     const WandInstant& instant = network.instants[sighting.instant];
     const double after_s =
         sighting.time_s + network.array.cameras[sighting.camera].time_offset_s - instant.time_s;
-    const auto moved = EndsAfter(network, sighting.instant, after_s);
+    const auto moved = EndsAfter(network, times_s, sighting.instant, after_s);
     for (int end = 0; end < 2; ++end) {
       const View view{sighting.camera, -1};
       const auto now = Project(network.array, view, instant.ends_mm[end]);

@@ -14,12 +14,6 @@
 namespace articap {
 namespace {
 
-std::vector<double> TimesOf(const WandNetwork& network) {
-  std::vector<double> times_s;
-  for (const WandInstant& at : network.instants) times_s.push_back(at.time_s);
-  return times_s;
-}
-
 PointMotion MotionOfEnd(const WandNetwork& network, const std::vector<double>& times_s, int instant,
                         int end) {
   const std::optional<int> middle = MiddleOfTriple(times_s, instant);
@@ -44,7 +38,7 @@ class WandProblem {
       for (int end = 0; end < 2; ++end)
         Eigen::Map<Eigen::Vector3d>{ends.data() + 3 * end} = instant.ends_mm[end];
     }
-    const std::vector<double> times_s = TimesOf(network);
+    const std::vector<double> times_s = InstantTimes_s(network);
     for (const WandSighting& sighting : network.sightings) AddSighting(sighting, times_s);
     for (EndsBlock& ends : ends_) {
       if (!problem_.HasParameterBlock(ends.data())) continue;
@@ -102,12 +96,13 @@ class WandProblem {
 };
 
 std::vector<std::array<Eigen::Vector2d, 2>> ResidualsOf(const WandNetwork& network) {
+  const std::vector<double> times_s = InstantTimes_s(network);
   std::vector<std::array<Eigen::Vector2d, 2>> residuals;
   for (const WandSighting& sighting : network.sightings) {
     const Camera& camera = network.array.cameras[sighting.camera];
     const double after_s =
         sighting.time_s + camera.time_offset_s - network.instants[sighting.instant].time_s;
-    const auto ends = EndsAfter(network, sighting.instant, after_s);
+    const auto ends = EndsAfter(network, times_s, sighting.instant, after_s);
     std::array<Eigen::Vector2d, 2>& of_ends = residuals.emplace_back();
     for (int end = 0; end < 2; ++end) {
       const auto expected = Project(network.array, {sighting.camera, -1}, ends[end]);
@@ -147,9 +142,16 @@ void AddScaleError(const WandNetwork& network, const std::vector<CameraParameter
 
 }  // namespace
 
-std::array<Eigen::Vector3d, 2> EndsAfter(const WandNetwork& network, int instant, double after_s) {
+std::vector<double> InstantTimes_s(const WandNetwork& network) {
+  std::vector<double> times_s;
+  for (const WandInstant& at : network.instants) times_s.push_back(at.time_s);
+  return times_s;
+}
+
+std::array<Eigen::Vector3d, 2> EndsAfter(const WandNetwork& network,
+                                         const std::vector<double>& times_s, int instant,
+                                         double after_s) {
   std::array<Eigen::Vector3d, 2> ends = network.instants[instant].ends_mm;
-  const std::vector<double> times_s = TimesOf(network);
   for (int end = 0; end < 2; ++end)
     ends[end] += MotionOfEnd(network, times_s, instant, end).After(after_s);
   return ends;

@@ -52,7 +52,11 @@ struct AdjustedWand {
 // Bundle adjustment of the cameras and of the wand's ends, whose distance is known.
 AdjustedWand AdjustWand(const WandNetwork& network, const AdjustOptions& options);
 
-// How the ends move about an instant, by the instants next to it.
-std::array<Eigen::Vector3d, 2> EndsAfter(const WandNetwork& network, int instant, double after_s);
+std::vector<double> InstantTimes_s(const WandNetwork& network);
+
+// How the ends move about an instant, by the instants next to it; `times_s` of all of them.
+std::array<Eigen::Vector3d, 2> EndsAfter(const WandNetwork& network,
+                                         const std::vector<double>& times_s, int instant,
+                                         double after_s);
 
 }  // namespace articap
