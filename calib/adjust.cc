@@ -123,11 +123,9 @@ class NetworkProblem {
 
 }  // namespace
 
-bool LensFreedom::any() const { return count() > 0; }
-
-int LensFreedom::count() const {
-  return focal + aspect + 2 * principal_point +
-         static_cast<int>(std::count(distortion.begin(), distortion.end(), true));
+bool LensFreedom::any() const {
+  return focal || aspect || principal_point ||
+         std::find(distortion.begin(), distortion.end(), true) != distortion.end();
 }
 
 double RmsOf(const std::vector<Eigen::Vector2d>& residuals_px) {
@@ -164,7 +162,6 @@ AdjustedNetwork Adjust(const Network& network, const AdjustOptions& options) {
   adjusted.converged = summary.termination_type == ceres::CONVERGENCE;
   adjusted.solver_message = summary.message;
   adjusted.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
-  adjusted.solve_s = summary.total_time_in_seconds;
   adjusted.residuals_px = ResidualsOf(adjusted.network);
   adjusted.degrees_of_freedom = summary.num_residuals - problem.num_free();
   const ArrowCovariance covariance = problem.Covariance();

@@ -206,7 +206,7 @@ void CameraBlocks::ConstrainLens(ceres::Problem& problem, int camera) {
 void CameraBlocks::ConstrainPose(ceres::Problem& problem, int camera) {
   PoseBlock& block = cameras_[camera].pose;
   if (!problem.HasParameterBlock(block.data())) return;
-  if (camera == 0 || !options_.free_poses) {
+  if (camera == 0) {
     problem.SetParameterBlockConstant(block.data());
     return;
   }
@@ -230,10 +230,6 @@ void CameraBlocks::ConstrainTimeOffset(ceres::Problem& problem, int camera) {
 void CameraBlocks::ConstrainMirror(ceres::Problem& problem, int mirror_index) {
   double* block = mirror(mirror_index);
   if (!problem.HasParameterBlock(block)) return;
-  if (!options_.free_mirrors) {
-    problem.SetParameterBlockConstant(block);
-    return;
-  }
   free_blocks_.push_back(block);
   for (int axis = 0; axis < 3; ++axis) parameters_.push_back({Kind::kMirror, mirror_index, axis});
 }
@@ -273,7 +269,8 @@ ceres::Solver::Summary SolveBySchur(ceres::Problem& problem, const std::vector<d
   for (double* block : blocks) solver.linear_solver_ordering->AddElementToGroup(block, 1);
   for (double* block : places) solver.linear_solver_ordering->AddElementToGroup(block, 0);
   solver.max_num_iterations = options.max_iterations;
-  solver.num_threads = options.num_threads;
+  // More threads add up in another order, to other last digits.
+  solver.num_threads = 1;
   solver.function_tolerance = solver.parameter_tolerance = kTolerance;
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

@@ -46,14 +46,11 @@ struct LensFreedom {
   std::array<bool, Lens::kNumDistortion> distortion{};
 
   bool any() const;
-  int count() const;
 };
 
 struct AdjustOptions {
   // One a camera. The first camera's pose is always held: it is the gauge.
   std::vector<LensFreedom> lenses;
-  bool free_poses = true;
-  bool free_mirrors = true;
   // Of all cameras but the first, in a moving network.
   bool free_time_offsets = false;
   // The noise of each view (CameraArray::views()) over the usual one: its residuals count the less.
@@ -62,8 +59,6 @@ struct AdjustOptions {
   // Huber's loss from here on, px of a view of the usual noise; 0: plain least squares.
   double huber_px = 0;
   int max_iterations = 100;
-  // More threads add up in another order, to other last digits.
-  int num_threads = 1;
 };
 
 // A parameter of the cameras in the order of AdjustedNetwork::covariance.
@@ -91,7 +86,6 @@ struct AdjustedNetwork {
   bool converged = false;
   std::string solver_message;
   int iterations = 0;
-  double solve_s = 0;
   // seen - expected, px; one list a sighting, one entry a corner.
   std::vector<std::vector<Eigen::Vector2d>> residuals_px;
   // Standard deviation of one coordinate of a corner, without outliers (HuberSums): of all views
