@@ -128,17 +128,23 @@ bool LensFreedom::any() const {
          std::find(distortion.begin(), distortion.end(), true) != distortion.end();
 }
 
-double RmsOf(const std::vector<Eigen::Vector2d>& residuals_px) {
-  double sum = 0;
-  for (const Eigen::Vector2d& residual : residuals_px) sum += residual.squaredNorm();
-  return std::sqrt(sum / static_cast<double>(residuals_px.size()));
+void DistanceRms::Add(std::span<const Eigen::Vector2d> residuals_px) {
+  for (const Eigen::Vector2d& residual : residuals_px) squares_px2_ += residual.squaredNorm();
+  count_ += residuals_px.size();
+}
+
+double DistanceRms::px() const { return std::sqrt(squares_px2_ / static_cast<double>(count_)); }
+
+double RmsOf(std::span<const Eigen::Vector2d> residuals_px) {
+  DistanceRms rms;
+  rms.Add(residuals_px);
+  return rms.px();
 }
 
 double AdjustedNetwork::rms_px() const {
-  std::vector<Eigen::Vector2d> all;
-  for (const auto& residuals : residuals_px)
-    all.insert(all.end(), residuals.begin(), residuals.end());
-  return RmsOf(all);
+  DistanceRms rms;
+  for (const auto& residuals : residuals_px) rms.Add(residuals);
+  return rms.px();
 }
 
 std::vector<std::vector<Eigen::Vector2d>> ResidualsOf(const Network& network) {

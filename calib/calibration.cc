@@ -51,11 +51,10 @@ Camera CameraWith(const CameraSightings& sightings, const Lens& lens) {
 }
 
 double Calibration::rms_px() const {
-  std::vector<Eigen::Vector2d> all;
+  DistanceRms rms;
   for (const SightingResult& sighting : sightings)
-    if (sighting.used)
-      all.insert(all.end(), sighting.residuals_px.begin(), sighting.residuals_px.end());
-  return RmsOf(all);
+    if (sighting.used) rms.Add(sighting.residuals_px);
+  return rms.px();
 }
 
 Result<void> RequireToldCorners(const BoardSpec& board) {

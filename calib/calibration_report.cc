@@ -28,11 +28,10 @@ std::size_t CountUsed(const Calibration& calibration) {
 
 // Root mean square over the sightings of one view, px.
 double RmsOfView_px(const Calibration& calibration, const View& view) {
-  std::vector<Eigen::Vector2d> residuals;
+  DistanceRms rms;
   for (const SightingResult& sighting : calibration.sightings)
-    if (sighting.used && sighting.view == view)
-      residuals.insert(residuals.end(), sighting.residuals_px.begin(), sighting.residuals_px.end());
-  return RmsOf(residuals);
+    if (sighting.used && sighting.view == view) rms.Add(sighting.residuals_px);
+  return rms.px();
 }
 
 ReportTable ViewTable(const Calibration& calibration) {

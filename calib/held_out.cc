@@ -70,7 +70,7 @@ void AddDistances(const BoardSpec& board, const std::vector<CornerPoint>& corner
 double HeldOutRms_px(const Network& network, const LensFreedom& freedom) {
   constexpr int kFolds = 3;
   if (network.placements.size() < 2 * kFolds) return HeldOut::kUnknown;
-  std::vector<Eigen::Vector2d> residuals;
+  DistanceRms rms;
   for (int fold = 0; fold < kFolds; ++fold) {
     AdjustOptions lens_alone;
     lens_alone.lenses = {freedom};
@@ -78,10 +78,10 @@ double HeldOutRms_px(const Network& network, const LensFreedom& freedom) {
         Adjust(WithPlacements(network, [&](int i) { return i % kFolds != fold; }), lens_alone);
     Network left_out = WithPlacements(network, [&](int i) { return i % kFolds == fold; });
     left_out.array = others.network.array;
-    for (const auto& of_sighting : Adjust(left_out, {}).residuals_px)
-      residuals.insert(residuals.end(), of_sighting.begin(), of_sighting.end());
+    const AdjustedNetwork seen = Adjust(left_out, {});
+    for (const auto& of_sighting : seen.residuals_px) rms.Add(of_sighting);
   }
-  return RmsOf(residuals);
+  return rms.px();
 }
 
 HeldOut HeldOutRigidity(const AdjustedNetwork& adjusted, const AdjustOptions& options, int stride) {

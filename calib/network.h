@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -101,8 +103,18 @@ struct AdjustedNetwork {
   double rms_px() const;  // over all corners, of the distance
 };
 
-// The root mean square of the distances.
-double RmsOf(const std::vector<Eigen::Vector2d>& residuals_px);
+// The root mean square of distances, list by list; NaN of none.
+class DistanceRms {
+ public:
+  void Add(std::span<const Eigen::Vector2d> residuals_px);
+  double px() const;
+
+ private:
+  double squares_px2_ = 0;
+  std::size_t count_ = 0;
+};
+
+double RmsOf(std::span<const Eigen::Vector2d> residuals_px);
 
 // Bundle adjustment: lenses, camera poses, mirrors, time offsets and the board's placements that
 // together minimise the squared distances between where corners were seen and where they should

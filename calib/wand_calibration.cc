@@ -158,10 +158,9 @@ WandCalibration Summarize(const AdjustedWand& adjusted) {
   result.noise_px = adjusted.noise_px;
   result.parameters = adjusted.parameters;
   result.covariance = adjusted.covariance;
-  double squares = 0;
-  for (const auto& ends : adjusted.residuals_px)
-    squares += ends[0].squaredNorm() + ends[1].squaredNorm();
-  result.rms_px = std::sqrt(squares / static_cast<double>(2 * adjusted.residuals_px.size()));
+  DistanceRms rms;
+  for (const auto& ends : adjusted.residuals_px) rms.Add(ends);
+  result.rms_px = rms.px();
   result.lengths_mm = LengthsOf_mm(adjusted.network, adjusted.noise_px);
   result.instants = static_cast<int>(result.lengths_mm.size());
   const double count = static_cast<double>(result.lengths_mm.size());
