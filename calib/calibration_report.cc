@@ -69,22 +69,6 @@ ReportTable LensTable(const CameraArray& array) {
   return table;
 }
 
-// Where each camera but the first stands, in the stage frame.
-ReportTable CameraTable(const CameraArray& array) {
-  ReportTable table = {
-      "camera",
-      {"x_mm", "y_mm", "z_mm", "sigma_mm", "sigma_deg", "time_offset_ms", "time_offset_sigma_ms"},
-      {}};
-  for (const Camera& camera : array.cameras) {
-    const Eigen::Vector3d at = camera.cam_from_stage.Inverse().translation_mm;
-    table.rows.push_back({camera.name,
-                          {at.x(), at.y(), at.z(), camera.sigmas.translation_mm.norm(),
-                           camera.sigmas.rotation_rad.norm() / kDegree, 1e3 * camera.time_offset_s,
-                           1e3 * camera.sigmas.time_offset_s}});
-  }
-  return table;
-}
-
 ReportTable MirrorTable(const CameraArray& array) {
   ReportTable table = {
       "mirror", {"normal_x", "normal_y", "normal_z", "sigma_deg", "distance_mm", "sigma_mm"}, {}};
@@ -229,6 +213,21 @@ std::string VerdictOn(const Calibration& calibration) {
 }
 
 }  // namespace
+
+ReportTable CameraTable(const CameraArray& array) {
+  ReportTable table = {
+      "camera",
+      {"x_mm", "y_mm", "z_mm", "sigma_mm", "sigma_deg", "time_offset_ms", "time_offset_sigma_ms"},
+      {}};
+  for (const Camera& camera : array.cameras) {
+    const Eigen::Vector3d at = camera.cam_from_stage.Inverse().translation_mm;
+    table.rows.push_back({camera.name,
+                          {at.x(), at.y(), at.z(), camera.sigmas.translation_mm.norm(),
+                           camera.sigmas.rotation_rad.norm() / kDegree, 1e3 * camera.time_offset_s,
+                           1e3 * camera.sigmas.time_offset_s}});
+  }
+  return table;
+}
 
 void DescribePlacesAnew(const CameraArray& array, StageReport& report) {
   for (ReportTable& table : report.tables) {

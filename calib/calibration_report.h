@@ -22,6 +22,9 @@ struct CalibrationLimits {
 StageReport DescribeCalibration(const std::string& kind, const Calibration& calibration,
                                 const CalibrationLimits& limits);
 
+// Where each camera stands in the stage frame, and how its clock differs.
+ReportTable CameraTable(const CameraArray& array);
+
 // The tables of a report that say where cameras and mirrors stand, once more in the array's own
 // stage frame: for a stage that is chosen after the report was made. Also for a wand's report.
 void DescribePlacesAnew(const CameraArray& array, StageReport& report);

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "calib/calibration_report.h"
 #include "calib/instants.h"
 #include "calib/robust.h"
 #include "calib/view_noise.h"
@@ -20,7 +20,6 @@
 namespace articap {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kFewestPictures = 30;
 
 // Pictures that show two markers, no more and no fewer.
@@ -227,18 +226,11 @@ StageReport Describe(const WandCalibration& wand, const WandOptions& options) {
                     {"instants", static_cast<double>(wand.instants)},
                     {"mean_length_mm", wand.mean_length_mm},
                     {"wand_score", wand.wand_score}};
-  ReportTable table = {"camera",
-                       {"x_mm", "y_mm", "z_mm", "sigma_mm", "sigma_deg", "fx_px", "time_offset_ms",
-                        "time_offset_sigma_ms", "noise_px"},
-                       {}};
+  ReportTable table = CameraTable(wand.array);
+  table.columns.insert(table.columns.end(), {"fx_px", "noise_px"});
   for (std::size_t i = 0; i < wand.array.cameras.size(); ++i) {
-    const Camera& camera = wand.array.cameras[i];
-    const Eigen::Vector3d at = camera.cam_from_stage.Inverse().translation_mm;
-    table.rows.push_back(
-        {camera.name,
-         {at.x(), at.y(), at.z(), camera.sigmas.translation_mm.norm(),
-          camera.sigmas.rotation_rad.norm() / kDegree, camera.lens.fx_px,
-          1e3 * camera.time_offset_s, 1e3 * camera.sigmas.time_offset_s, wand.noise_px[i]}});
+    std::vector<double>& values = table.rows[i].values;
+    values.insert(values.end(), {wand.array.cameras[i].lens.fx_px, wand.noise_px[i]});
   }
   report.tables = {std::move(table)};
   report.options = EchoOptions(options);
