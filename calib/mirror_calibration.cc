@@ -68,11 +68,14 @@ void VisitOptions(MirrorOptions& options, OptionVisitor& visit) {
   visit("glass_mm", options.glass_mm,
         "thickness of the glass before a second-surface mirror's silver; 0: front surface; mm");
   visit("glass_index", options.glass_index, "refractive index of that glass");
-  visit("adjust_lens", options.adjust_lens,
-        "adjust a lens that was calibrated before along with the mirror; false: hold it");
+  visit(
+      "adjust_lens", options.adjust_lens,
+      "adjust a lens that was calibrated before along with the mirror; false: hold a lens that was "
+      "calibrated before");
   visit("huber_sigmas", options.huber_sigmas,
         "corners off by more standard deviations count less; 0: plain least squares");
-  visit("set_views_aside", options.set_views_aside, "leave out views that do not fit the others");
+  visit("set_views_aside", options.set_views_aside,
+        "leave out views that do not fit the others; false: keep views that do not fit the others");
   visit("max_rms_px", options.max_rms_px, "not usable with larger residuals; px");
   visit("max_rigidity_mm", options.max_rigidity_mm,
         "not usable with larger errors of distances on held-out views; mm");

@@ -83,12 +83,14 @@ std::vector<PlacedSighting> PlaceSightings(const BoardSpec& board,
 
 void VisitOptions(RigOptions& options, OptionVisitor& visit) {
   visit("adjust_lenses", options.adjust_lenses,
-        "adjust lenses that were calibrated before along with the rest; false: hold them");
+        "adjust lenses that were calibrated before along with the rest; false: hold lenses that "
+        "were calibrated before");
   visit("free_time_offsets", options.free_time_offsets,
         "the cameras are not synchronous: estimate each one's offset from the moving board");
   visit("huber_sigmas", options.huber_sigmas,
         "corners off by more standard deviations count less; 0: plain least squares");
-  visit("set_views_aside", options.set_views_aside, "leave out views that do not fit the others");
+  visit("set_views_aside", options.set_views_aside,
+        "leave out views that do not fit the others; false: keep views that do not fit the others");
   visit("max_rms_px", options.max_rms_px, "not usable with larger residuals; px");
   visit("max_rigidity_mm", options.max_rigidity_mm,
         "not usable with larger errors of distances on held-out views; mm");

@@ -247,7 +247,8 @@ void VisitOptions(WandOptions& options, OptionVisitor& visit) {
   visit("adjust_radial", options.adjust_radial,
         "the radial distortion (k1, k2) is only roughly known");
   visit("free_time_offsets", options.free_time_offsets,
-        "the cameras are not synchronous: estimate each one's offset");
+        "the cameras are not synchronous: estimate each one's offset; false: the cameras are "
+        "synchronous");
   visit("huber_sigmas", options.huber_sigmas, "markers off by more standard deviations count less");
   visit("max_rms_px", options.max_rms_px, "not usable with larger residuals; px");
   visit("max_wand_score", options.max_wand_score,
