@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "calib/planar_pose.h"
+#include "calib/view_noise.h"
 
 namespace articap {
 namespace {
@@ -76,6 +77,7 @@ Calibration MakeCalibration(const std::vector<CameraSightings>& inputs,
   calibration.placements = network.placements;
   calibration.sigma_px = adjusted.sigma_px;
   calibration.noise_px = adjusted.noise_px;
+  calibration.local_noise_px = LocalNoiseOfViews_px(adjusted);
   calibration.degrees_of_freedom = adjusted.degrees_of_freedom;
   calibration.parameters = adjusted.parameters;
   calibration.covariance = adjusted.covariance;

@@ -79,6 +79,11 @@ void VisitOptions(MirrorOptions& options, OptionVisitor& visit) {
   visit("max_rms_px", options.max_rms_px, "not usable with larger residuals; px");
   visit("max_rigidity_mm", options.max_rigidity_mm,
         "not usable with larger errors of distances on held-out views; mm");
+  visit("max_held_focal_percent", options.max_held_focal_percent,
+        "not usable where the pictures contradict the focal length of a lens that is held by more; "
+        "percent");
+  visit("max_misfit", options.max_misfit,
+        "not usable where residuals are more times as large as neighbouring corners tell");
 }
 
 Result<StageResult<Calibration>> CalibrateMirror(const BoardSpec& board,
@@ -104,7 +109,9 @@ Result<StageResult<Calibration>> CalibrateMirror(const BoardSpec& board,
                        lens_options, {options.huber_sigmas, options.set_views_aside},
                        {.max_rms_px = options.max_rms_px,
                         .max_focal_sigma_percent = lens_options.max_focal_sigma_percent,
-                        .max_rigidity_mm = options.max_rigidity_mm});
+                        .max_rigidity_mm = options.max_rigidity_mm,
+                        .max_held_focal_percent = options.max_held_focal_percent,
+                        .max_misfit = options.max_misfit});
   mirror.report.options = EchoOptions(options);
   return mirror;
 }

@@ -18,6 +18,7 @@ StageResult<Calibration> CalibrateNetwork(const std::string& kind,
   if (lens_options.simplify)
     adjusted = SimplifyLenses(std::move(adjusted), lens_options, start.adjust, start.models);
   Calibration calibration = MakeCalibration(inputs, adjusted, start.set_aside);
+  calibration.held_lenses = JudgeHeldLenses(adjusted, start.adjust);
   // A board that moves is nowhere the same in two pictures.
   if (!adjusted.network.moving) calibration.held_out = HeldOutRigidity(adjusted, start.adjust);
   StageReport report = DescribeCalibration(kind, calibration, limits);

@@ -15,7 +15,42 @@ constexpr double kFewest = 30;
 // rays that meet in a point, say, nobody knows which one is off.
 constexpr double kLeastShare = 0.5;
 
+// Of each corner that has neighbours to both sides, along a row or a column of the board.
+void AddSecondDifferences(const BoardSpec& board, const std::vector<int>& corners,
+                          const std::vector<Eigen::Vector2d>& residuals_px,
+                          std::vector<double>& distances_px) {
+  std::vector<const Eigen::Vector2d*> at(static_cast<std::size_t>(board.num_corners()), nullptr);
+  for (std::size_t i = 0; i < corners.size(); ++i) at[corners[i]] = &residuals_px[i];
+  const auto add = [&](int corner, int step) {
+    const auto *before = at[corner - step], *behind = at[corner + step];
+    if (before != nullptr && behind != nullptr)
+      distances_px.push_back((*before - 2 * *at[corner] + *behind).norm());
+  };
+  const int columns = board.corner_columns();
+  for (int corner : corners) {
+    const int column = corner % columns, row = corner / columns;
+    if (column > 0 && column + 1 < columns) add(corner, 1);
+    if (row > 0 && row + 1 < board.corner_rows()) add(corner, columns);
+  }
+}
+
 }  // namespace
+
+std::vector<double> LocalNoiseOfViews_px(const AdjustedNetwork& adjusted) {
+  const Network& network = adjusted.network;
+  std::vector<std::vector<double>> distances_px(network.array.views().size());
+  for (std::size_t i = 0; i < network.sightings.size(); ++i) {
+    const NetworkSighting& sighting = network.sightings[i];
+    AddSecondDifferences(network.board, sighting.corners, adjusted.residuals_px[i],
+                         distances_px[network.array.IndexOf(sighting.view)]);
+  }
+  std::vector<double> noise_px;
+  for (std::vector<double>& of_view_px : distances_px)
+    noise_px.push_back(static_cast<double>(of_view_px.size()) < kFewest
+                           ? NAN
+                           : RobustSigmaOf(std::move(of_view_px)) / std::sqrt(6.0));
+  return noise_px;
+}
 
 NoiseSums::NoiseSums(const AdjustOptions& options, std::vector<double> redundancies)
     : relative_noise_(options.relative_noise),

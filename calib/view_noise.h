@@ -45,6 +45,12 @@ class NoiseSums {
   HuberSums others_;
 };
 
+// The noise of the corners of each view against their neighbours on the board, robustly: what is
+// left of residuals once they may differ linearly along its rows and columns (second differences,
+// of variance 6). Where something does not stand as the adjustment takes it to, residuals run the
+// same way for parts of the board, and are larger than this. NaN of too few corners.
+std::vector<double> LocalNoiseOfViews_px(const AdjustedNetwork& adjusted);
+
 // Weighs the views of the next adjustment by the noise that the last one found. Whether that
 // changes weights, by more than a hundredth.
 bool WeighViews(const std::vector<double>& noise_px, double pooled_px, AdjustOptions& options);

@@ -300,6 +300,42 @@ TEST(RigCalibrationTest, ACameraThatHangsOnAWrongViewIsNotUsable) {
   EXPECT_THAT(wrong->report.verdict, HasSubstr("cam1: where it stands cannot be told"));
 }
 
+TEST(RigCalibrationTest, LensesThatAreHeldAndWrongAreNamed) {
+  RigOptions held;
+  held.adjust_lenses = false;
+  for (int wrong : {0, 2}) {
+    const NetworkScene scene = RigScene(7, 3, 30);
+    std::vector<CameraSightings> seen = SeeBoards(scene, 0.1, 7);
+    for (std::size_t i = 0; i < seen.size(); ++i) seen[i].lens = scene.array.cameras[i].lens;
+    const auto good = CalibrateRig(scene.board, seen, {}, held);
+    ASSERT_TRUE(good) << good.error().message;
+    EXPECT_TRUE(good->report.IsUsable()) << good->report.verdict;
+    seen[wrong].lens->fx_px *= 1.05;
+    seen[wrong].lens->fy_px *= 1.05;
+    const auto rig = CalibrateRig(scene.board, seen, {}, held);
+    ASSERT_TRUE(rig) << rig.error().message;
+    EXPECT_FALSE(rig->report.IsUsable());
+    EXPECT_THAT(rig->report.verdict, HasSubstr(seen[wrong].camera + ": its lens was held at"));
+    held.max_held_focal_percent = 6;
+    EXPECT_TRUE(CalibrateRig(scene.board, seen, {}, held)->report.IsUsable());
+    held.max_held_focal_percent = 2;
+  }
+}
+
+// Where the corners themselves are good, what is wrong with the array shows in how they are off.
+TEST(RigCalibrationTest, ACameraThatMovedBetweenPicturesIsNotUsable) {
+  NetworkScene scene = RigScene(8, 2, 40);
+  std::vector<CameraSightings> seen = SeeBoards(scene, 0.02, 8);
+  scene.array.cameras[1].cam_from_stage.translation_mm.y() += 0.4;
+  const std::vector<CameraSightings> later = SeeBoards(scene, 0.02, 8);
+  for (std::size_t i = 0; i < seen[1].sightings.size(); ++i)
+    if (seen[1].sightings[i].frame >= 20) seen[1].sightings[i] = later[1].sightings[i];
+  const auto rig = CalibrateRig(scene.board, seen, {}, {});
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_FALSE(rig->report.IsUsable()) << rig->report.verdict;
+  EXPECT_THAT(rig->report.verdict, HasSubstr("did it move between pictures"));
+}
+
 TEST(RigCalibrationTest, BoardsBehindTheCamerasAreSetAside) {
   const NetworkScene scene = RigScene(1, 2, 12);
   const std::vector<CameraSightings> seen = SeeBoards(scene, 0.1, 1);
