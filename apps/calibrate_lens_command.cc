@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <utility>
+
 #include "apps/calibrate_input.h"
 #include "apps/calibrate_outputs.h"
 #include "apps/progress.h"
@@ -10,17 +12,11 @@ namespace {
 
 Result<StageReport> RunLens(const BoardInput& input, const BoardSpec& board,
                             const LensOptions& options, const CalibrationOutput& output) {
-  if (const auto kept = RefuseToReplaceInputs(output, InputFiles(input.paths, input.lenses)); !kept)
-    return tl::unexpected(kept.error());
   Result<SeenCamera> seen = SeeOneCamera(board, input);
   if (!seen) return tl::unexpected(seen.error());
   auto lens = WithProgress("calibrating the lens",
                            [&] { return CalibrateLens(board, seen->sightings, options); });
-  if (!lens) return Fail(WithReasons(lens.error().message, *seen));
-  AddWhatWasSeen(*seen, lens->report);
-  if (const auto written = WriteCalibrationOutputs(lens->output, lens->report, output); !written)
-    return tl::unexpected(written.error());
-  return lens->report;
+  return Conclude(std::move(lens), *seen, output);
 }
 
 }  // namespace
@@ -38,10 +34,8 @@ ExitCode CalibrateLensCommand(const std::vector<std::string>& arguments) {
   line.Flag("-o,--output", output.path, "FILE", "calibration to write, TOML")->required();
   line.Stage("lens", options);
   if (const auto exit = line.Parse(arguments)) return *exit;
-  const Result<BoardSpec> board = ParseBoardSpec(input.board);
-  if (!board) return FailWith(ExitCode::kWrongUsage, board.error().message);
-  const Result<StageReport> report = RunLens(input, *board, options, output);
-  return report ? line.Finish({*report}) : FailWith(report.error());
+  return RunOnBoard(line, input, output,
+                    [&](const BoardSpec& board) { return RunLens(input, board, options, output); });
 }
 
 }  // namespace articap

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <utility>
+
 #include "apps/calibrate_input.h"
 #include "apps/calibrate_outputs.h"
 #include "apps/progress.h"
@@ -17,10 +19,6 @@ struct MirrorArguments {
 
 Result<StageReport> RunMirror(const MirrorArguments& arguments, const BoardSpec& board) {
   BoardInput input = arguments.input;
-  if (const auto kept =
-          RefuseToReplaceInputs(arguments.output, InputFiles(input.paths, input.lenses));
-      !kept)
-    return tl::unexpected(kept.error());
   if (const auto told = RequireToldCorners(board); !told) return tl::unexpected(told.error());
   input.detect.look_in_mirror = true;
   Result<SeenCamera> seen = SeeOneCamera(board, input);
@@ -28,13 +26,7 @@ Result<StageReport> RunMirror(const MirrorArguments& arguments, const BoardSpec&
   auto mirror = WithProgress("calibrating the mirror", [&] {
     return CalibrateMirror(board, seen->sightings, arguments.lens, arguments.mirror);
   });
-  if (!mirror) return Fail(WithReasons(mirror.error().message, *seen));
-  AddWhatWasSeen(*seen, mirror->report);
-  if (const auto written =
-          WriteCalibrationOutputs(mirror->output, mirror->report, arguments.output);
-      !written)
-    return tl::unexpected(written.error());
-  return mirror->report;
+  return Conclude(std::move(mirror), *seen, arguments.output);
 }
 
 }  // namespace
@@ -55,12 +47,8 @@ ExitCode CalibrateMirrorCommand(const std::vector<std::string>& arguments) {
   line.Stage("lens", values.lens, "lens");
   line.Stage("mirror", values.mirror);
   if (const auto exit = line.Parse(arguments)) return *exit;
-  const Result<BoardSpec> board = ParseBoardSpec(values.input.board);
-  if (!board) return FailWith(ExitCode::kWrongUsage, board.error().message);
-  if (const auto stage = CheckStageName(values.output); !stage)
-    return FailWith(ExitCode::kWrongUsage, stage.error().message);
-  const Result<StageReport> report = RunMirror(values, *board);
-  return report ? line.Finish({*report}) : FailWith(report.error());
+  return RunOnBoard(line, values.input, values.output,
+                    [&](const BoardSpec& board) { return RunMirror(values, board); });
 }
 
 }  // namespace articap

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "apps/calibrate_input.h"
+#include "apps/calibrate_outputs.h"
 #include "apps/camera_input.h"
 #include "apps/output_names.h"
 #include "apps/output_set.h"
@@ -50,6 +53,9 @@ Result<Camera> CameraOf(const DotArguments& arguments) {
 }
 
 Result<StageReport> RunDots(const DotArguments& arguments) {
+  const std::vector<std::filesystem::path> inputs = {arguments.dots, arguments.lenses};
+  if (const auto kept = RefuseToReplaceInputs({arguments.output, "first"}, inputs); !kept)
+    return tl::unexpected(kept.error());
   const Result<Camera> camera = CameraOf(arguments);
   if (!camera) return tl::unexpected(camera.error());
   const Result<std::vector<DotPair>> dots = ReadDotPairs(arguments.dots);
@@ -57,12 +63,11 @@ Result<StageReport> RunDots(const DotArguments& arguments) {
   auto mirror = CalibrateMirrorFromDots(*camera, *dots, arguments.options);
   if (!mirror) return tl::unexpected(mirror.error());
   mirror->output.array.source = "articap calibrate mirror-dots";
+  WarnOfEarlierOutput(arguments.output, mirror->report);
   OutputSet outputs;
   if (mirror->report.IsUsable())
     outputs.Add(arguments.output, WriteCalibration(mirror->output.array));
   outputs.Add(Beside(arguments.output, ".report.json"), mirror->report.ToJson());
-  if (const auto allowed = outputs.RefuseToOverwrite({arguments.dots, arguments.lenses}); !allowed)
-    return tl::unexpected(allowed.error());
   if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
   return mirror->report;
 }

@@ -42,15 +42,67 @@ Result<void> WriteAll(const CameraArray& array, bool usable, const std::string& 
   return outputs.Commit();
 }
 
-void WarnOfEarlierOutput(const CalibrationOutput& output, StageReport& report) {
-  std::error_code error;
-  if (!report.IsUsable() && std::filesystem::exists(output.path, error))
-    report.warnings.push_back(fmt::format(
-        "{} is of an earlier calibration and stays as it was; this report is not about it",
-        output.path));
+// After a failure that may come of them: what became of the pictures.
+std::string WithReasons(const std::string& message, const SeenCamera& seen) {
+  constexpr std::size_t kMostNamed = 10;
+  std::string text = message;
+  for (const std::string& note : seen.notes) text += "\n  " + note;
+  for (std::size_t i = 0; i < std::min(kMostNamed, seen.set_aside.size()); ++i)
+    text += "\n  " + seen.set_aside[i];
+  if (seen.set_aside.size() > kMostNamed)
+    text += fmt::format("\n  and {} more", seen.set_aside.size() - kMostNamed);
+  return text;
+}
+
+// As warnings, notes and part of the figure "set_aside" of a report.
+void AddWhatWasSeen(const SeenCamera& seen, StageReport& report) {
+  report.warnings.insert(report.warnings.begin(), seen.set_aside.begin(), seen.set_aside.end());
+  for (const std::string& note : seen.notes) report.texts.emplace_back("note", note);
+  for (auto& [name, value] : report.figures)
+    if (name == "set_aside") value += static_cast<double>(seen.set_aside.size());
+}
+
+Result<void> WriteCalibrationOutputs(Calibration& calibration, StageReport& report,
+                                     const CalibrationOutput& output) {
+  const Result<Rigid3d> stage = ChooseStage(calibration, output.stage);
+  if (!stage) return tl::unexpected(stage.error());
+  MoveStage(*stage, calibration);
+  DescribePlacesAnew(calibration.array, report);
+  calibration.array.source = fmt::format("articap {}", report.stage);
+  WarnOfEarlierOutput(output.path, report);
+  return WriteAll(calibration.array, report.IsUsable(), CalibrationJson(calibration, report),
+                  output);
 }
 
 }  // namespace
+
+void WarnOfEarlierOutput(const std::string& path, StageReport& report) {
+  std::error_code error;
+  if (!report.IsUsable() && std::filesystem::exists(path, error))
+    report.warnings.push_back(fmt::format(
+        "{} is of an earlier calibration and stays as it was; this report is not about it", path));
+}
+
+ExitCode RunOnBoard(const VerbLine& line, const BoardInput& input, const CalibrationOutput& output,
+                    const std::function<Result<StageReport>(const BoardSpec&)>& run) {
+  const Result<BoardSpec> board = ParseBoardSpec(input.board);
+  if (!board) return FailWith(ExitCode::kWrongUsage, board.error().message);
+  if (const auto stage = CheckStageName(output); !stage)
+    return FailWith(ExitCode::kWrongUsage, stage.error().message);
+  if (const auto kept = RefuseToReplaceInputs(output, InputFiles(input.paths, input.lenses)); !kept)
+    return FailWith(kept.error());
+  const Result<StageReport> report = run(*board);
+  return report ? line.Finish({*report}) : FailWith(report.error());
+}
+
+Result<StageReport> Conclude(Result<StageResult<Calibration>> calibration, const SeenCamera& seen,
+                             const CalibrationOutput& output) {
+  if (!calibration) return Fail(WithReasons(calibration.error().message, seen));
+  AddWhatWasSeen(seen, calibration->report);
+  const auto written = WriteCalibrationOutputs(calibration->output, calibration->report, output);
+  if (!written) return tl::unexpected(written.error());
+  return calibration->report;
+}
 
 Result<void> CheckStageName(const CalibrationOutput& output, bool has_l_frame) {
   const std::string& stage = output.stage;
@@ -70,41 +122,11 @@ Result<void> RefuseToReplaceInputs(const CalibrationOutput& output,
   return outputs.RefuseToOverwrite(inputs);
 }
 
-Result<void> WriteCalibrationOutputs(Calibration& calibration, StageReport& report,
-                                     const CalibrationOutput& output) {
-  const Result<Rigid3d> stage = ChooseStage(calibration, output.stage);
-  if (!stage) return tl::unexpected(stage.error());
-  MoveStage(*stage, calibration);
-  DescribePlacesAnew(calibration.array, report);
-  calibration.array.source = fmt::format("articap {}", report.stage);
-  WarnOfEarlierOutput(output, report);
-  return WriteAll(calibration.array, report.IsUsable(), CalibrationJson(calibration, report),
-                  output);
-}
-
 Result<void> WriteWandOutputs(const WandCalibration& wand, StageReport& report,
                               const CalibrationOutput& output) {
   DescribePlacesAnew(wand.array, report);
-  WarnOfEarlierOutput(output, report);
+  WarnOfEarlierOutput(output.path, report);
   return WriteAll(wand.array, report.IsUsable(), CalibrationJson(wand, report), output);
-}
-
-std::string WithReasons(const std::string& message, const SeenCamera& seen) {
-  constexpr std::size_t kMostNamed = 10;
-  std::string text = message;
-  for (const std::string& note : seen.notes) text += "\n  " + note;
-  for (std::size_t i = 0; i < std::min(kMostNamed, seen.set_aside.size()); ++i)
-    text += "\n  " + seen.set_aside[i];
-  if (seen.set_aside.size() > kMostNamed)
-    text += fmt::format("\n  and {} more", seen.set_aside.size() - kMostNamed);
-  return text;
-}
-
-void AddWhatWasSeen(const SeenCamera& seen, StageReport& report) {
-  report.warnings.insert(report.warnings.begin(), seen.set_aside.begin(), seen.set_aside.end());
-  for (const std::string& note : seen.notes) report.texts.emplace_back("note", note);
-  for (auto& [name, value] : report.figures)
-    if (name == "set_aside") value += static_cast<double>(seen.set_aside.size());
 }
 
 }  // namespace articap

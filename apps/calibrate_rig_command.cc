@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "apps/calibrate_input.h"
 #include "apps/calibrate_outputs.h"
 #include "apps/progress.h"
@@ -19,10 +21,6 @@ struct RigArguments {
 
 Result<StageReport> RunRig(const RigArguments& arguments, const BoardSpec& board) {
   const BoardInput& input = arguments.input;
-  if (const auto kept =
-          RefuseToReplaceInputs(arguments.output, InputFiles(input.paths, input.lenses));
-      !kept)
-    return tl::unexpected(kept.error());
   if (const auto told = RequireToldCorners(board); !told) return tl::unexpected(told.error());
   // How the board moves between pictures is seen in those that follow one another.
   const bool choose_views = !arguments.rig.free_time_offsets;
@@ -44,12 +42,7 @@ Result<StageReport> RunRig(const RigArguments& arguments, const BoardSpec& board
   auto rig = WithProgress("calibrating the cameras", [&] {
     return CalibrateRig(board, cameras, arguments.lens, arguments.rig);
   });
-  if (!rig) return Fail(WithReasons(rig.error().message, all));
-  AddWhatWasSeen(all, rig->report);
-  if (const auto written = WriteCalibrationOutputs(rig->output, rig->report, arguments.output);
-      !written)
-    return tl::unexpected(written.error());
-  return rig->report;
+  return Conclude(std::move(rig), all, arguments.output);
 }
 
 }  // namespace
@@ -70,12 +63,8 @@ ExitCode CalibrateRigCommand(const std::vector<std::string>& arguments) {
   line.Stage("lens", values.lens, "lens");
   line.Stage("rig", values.rig);
   if (const auto exit = line.Parse(arguments)) return *exit;
-  const Result<BoardSpec> board = ParseBoardSpec(values.input.board);
-  if (!board) return FailWith(ExitCode::kWrongUsage, board.error().message);
-  if (const auto stage = CheckStageName(values.output); !stage)
-    return FailWith(ExitCode::kWrongUsage, stage.error().message);
-  const Result<StageReport> report = RunRig(values, *board);
-  return report ? line.Finish({*report}) : FailWith(report.error());
+  return RunOnBoard(line, values.input, values.output,
+                    [&](const BoardSpec& board) { return RunRig(values, board); });
 }
 
 }  // namespace articap

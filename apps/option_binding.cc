@@ -20,6 +20,15 @@ std::string Kebab(std::string name) {
 CLI::Validator IsNumber() { return CLI::TypeValidator<double>("").description(""); }
 CLI::Validator IsInteger() { return CLI::TypeValidator<int>("").description(""); }
 
+// What a switch does when it is on, and when it is off: "hold it" of "adjust it; false: hold it",
+// or "do not adjust it".
+std::pair<std::string, std::string> BothWays(const std::string& help) {
+  const std::string otherwise = "; false: ";
+  const std::size_t at = help.find(otherwise);
+  if (at == std::string::npos) return {help, "do not " + help};
+  return {help.substr(0, at), help.substr(at + otherwise.size())};
+}
+
 }  // namespace
 
 std::string FlagOf(const std::string& prefix, const std::string& option_name) {
@@ -44,13 +53,12 @@ CLI::Option* FlagRegistrar::Register(const char* name, const std::string& type,
 void FlagRegistrar::operator()(const char* name, bool& value, const char* help) {
   // Both ways can be said, since a file of options may differ from the default; the help shows the
   // one that changes it.
-  const std::string flag = FlagOf(prefix_, name);
   const std::string hidden;
-  CLI::Option* yes = app_.add_flag(flag)->description(help)->group(value ? hidden : group_);
-  CLI::Option* no = app_.add_flag(NegatedFlagOf(prefix_, name))
-                        ->description(fmt::format("not: {}", help))
-                        ->group(value ? group_ : hidden);
-  yes->excludes(no);
+  const auto [if_true, if_false] = BothWays(help);
+  app_.add_flag(FlagOf(prefix_, name))->description(if_true)->group(value ? hidden : group_);
+  app_.add_flag(NegatedFlagOf(prefix_, name))
+      ->description(if_false)
+      ->group(value ? group_ : hidden);
 }
 
 void FlagRegistrar::operator()(const char* name, int& value, const char* help) {
@@ -106,10 +114,13 @@ void OptionReader::WrongType(const char* name, const toml::node& node,
 
 void OptionReader::operator()(const char* name, bool& value, const char*) {
   const toml::node* node = ConfigNode(name);
-  if (GivenFlag(name) != nullptr) {
-    value = true;
-  } else if (app_.count(NegatedFlagOf(prefix_, name)) > 0) {
-    value = false;
+  const bool is_on = GivenFlag(name) != nullptr;
+  const bool is_off = app_.count(NegatedFlagOf(prefix_, name)) > 0;
+  if (is_on && is_off)
+    errors_.push_back(fmt::format("{} and {} contradict one another; give one of them",
+                                  FlagOf(prefix_, name), NegatedFlagOf(prefix_, name)));
+  if (is_on || is_off) {
+    value = is_on;
   } else if (node != nullptr) {
     if (const auto read = node->value_exact<bool>())
       value = *read;

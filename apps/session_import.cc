@@ -254,8 +254,6 @@ Result<TakeFile> MakeSound(const ImportSound& sound, const fs::path& folder, con
 }  // namespace
 
 Result<Import> PrepareImport(const std::vector<std::string>& paths, const ImportOptions& options) {
-  // Room for "_v1000", so that the next version's name is safe too.
-  constexpr std::size_t kLongestId = 90;
   Import import;
   for (const std::string& path : paths)
     if (const auto added = AddFile(path, options, import); !added)
@@ -266,12 +264,12 @@ Result<Import> PrepareImport(const std::vector<std::string>& paths, const Import
     return tl::unexpected(together.error());
   PlaceInTime(options, import.files);
   MakeNamesUnique(import);
-  import.id = options.id.empty() ? IdOf(import.files).substr(0, kLongestId) : options.id;
-  if (!IsSafeName(import.id) || import.id.size() > kLongestId)
+  import.id = options.id.empty() ? IdOf(import.files).substr(0, kLongestTakeId) : options.id;
+  if (!IsSafeName(import.id) || import.id.size() > kLongestTakeId)
     return Fail(
         fmt::format("--id {}: is no name for a take: letters, digits, '.', '_' and '-' of "
                     "ASCII, the first no '.' or '-', at most {}",
-                    import.id, kLongestId));
+                    import.id, kLongestTakeId));
   return import;
 }
 

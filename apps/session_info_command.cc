@@ -25,12 +25,8 @@ double DurationOf_s(const StoredTake& take, FileRole role) {
 // Of the longest video, all its parts together; NaN where there is none.
 double VideoDurationOf_s(const StoredTake& take) {
   double longest_s = NAN;
-  for (const std::string& camera : take.cameras()) {
-    TakeFile whole = take.VideoOf(camera)[0];
-    whole.frames = 0;
-    for (const TakeFile& part : take.VideoOf(camera)) whole.frames += part.frames;
-    longest_s = std::fmax(longest_s, take.DurationOf_s(whole));
-  }
+  for (const std::string& camera : take.cameras())
+    longest_s = std::fmax(longest_s, take.DurationOf_s(take.WholeVideoOf(camera)));
   return longest_s;
 }
 
@@ -66,13 +62,12 @@ ReportTable VideoTable(const Recording& recording) {
   for (const StoredTake& take : recording.takes())
     for (const std::string& camera : take.cameras()) {
       if (take.info.part) continue;
-      const std::vector<TakeFile> parts = take.VideoOf(camera);
-      double frames = 0;
-      for (const TakeFile& part : parts) frames += static_cast<double>(part.frames);
-      const std::chrono::duration<double> offset = parts[0].offset;
+      const TakeFile whole = take.WholeVideoOf(camera);
+      const std::chrono::duration<double> offset = whole.offset;
       table.rows.push_back({take.info.id + "/" + camera,
-                            {double(parts[0].width), double(parts[0].height), parts[0].rate_hz,
-                             frames, static_cast<double>(parts.size()), offset.count()}});
+                            {double(whole.width), double(whole.height), whole.rate_hz,
+                             static_cast<double>(whole.frames),
+                             static_cast<double>(take.VideoOf(camera).size()), offset.count()}});
     }
   return table;
 }

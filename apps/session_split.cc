@@ -77,28 +77,23 @@ Result<std::vector<Cut>> CutsByTimes(const std::string& path) {
 // From when to when anything was recorded.
 std::pair<double, double> ExtentOf_s(const StoredTake& take) {
   double start_s = std::numeric_limits<double>::infinity(), end_s = -start_s;
-  const auto add = [&](const TakeFile& file, std::int64_t frames) {
+  const auto add = [&](const TakeFile& file) {
     const double offset_s = Seconds(file.offset).count();
     start_s = std::min(start_s, offset_s);
-    end_s = std::max(end_s, offset_s + static_cast<double>(frames) / file.rate_hz);
+    end_s = std::max(end_s, offset_s + static_cast<double>(file.frames) / file.rate_hz);
   };
   for (const TakeFile& file : take.info.files)
-    if (file.role == FileRole::kMarkers || file.role == FileRole::kAudio) add(file, file.frames);
-  for (const std::string& camera : take.cameras()) {
-    std::int64_t frames = 0;
-    for (const TakeFile& part : take.VideoOf(camera)) frames += part.frames;
-    add(take.VideoOf(camera)[0], frames);
-  }
+    if (file.role == FileRole::kMarkers || file.role == FileRole::kAudio) add(file);
+  for (const std::string& camera : take.cameras()) add(take.WholeVideoOf(camera));
   return {start_s, end_s};
 }
 
 std::string IdOf(const StoredTake& take, std::size_t number, std::size_t count, const Cut& cut) {
-  // Room for "_v1000", as of imported takes.
-  constexpr std::size_t kLongest = 90, kLongestWhole = 40;
+  constexpr std::size_t kLongestWhole = 40;
   const int digits = count < 100 ? 2 : count < 1000 ? 3 : 5;
   std::string id = fmt::format("{}_{:0{}}", take.info.id.substr(0, kLongestWhole), number, digits);
   if (!cut.name.empty()) id += "_" + SafeNameOf(cut.name);
-  return id.substr(0, kLongest);
+  return id.substr(0, kLongestTakeId);
 }
 
 // The cut with its pad, within the recording; nothing where it lies outside.

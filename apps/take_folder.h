@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -8,6 +9,9 @@
 #include "core/result.h"
 
 namespace articap {
+
+// Leaves room for "_v1000", so that the next version's name is safe too.
+constexpr std::size_t kLongestTakeId = 90;
 
 // The folder of a take while it is filled; taken away again unless it was kept.
 class TakeFolder {

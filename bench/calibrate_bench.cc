@@ -56,7 +56,6 @@ void BM_BundleAdjustment(benchmark::State& state) {
   const Network network = DisturbedNetwork();
   AdjustOptions options;
   options.lenses.assign(4, FreedomOf(LensModel::kBrown5, {}));
-  options.num_threads = 1;
   options.huber_px = 1;
   AdjustedNetwork adjusted;
   for (auto _ : state) adjusted = Adjust(network, options);

@@ -11,7 +11,7 @@
 #include "calib/camera_blocks.h"
 #include "calib/cost_functions/corner_cost.h"
 #include "calib/network.h"
-#include "calib/robust.h"
+#include "calib/view_noise.h"
 #include "core/check.h"
 
 namespace articap {
@@ -75,12 +75,12 @@ class NetworkProblem {
         options_(options),
         cameras_(network.array, options),
         placements_(PlacementBlocksOf(network)) {
-    VisitCorners(
-        network, cameras_, placements_, [&](std::size_t, const auto& cost, auto*... blocks) {
-          problem_.AddResidualBlock(
-              cost.Create(),
-              options.huber_px > 0 ? new ceres::HuberLoss(options.huber_px) : nullptr, blocks...);
-        });
+    VisitCorners(network, cameras_, placements_,
+                 [&](std::size_t sighting, const auto& cost, auto*... blocks) {
+                   const int view = network.array.IndexOf(network.sightings[sighting].view);
+                   problem_.AddResidualBlock(cost.Create(), LossOf(options, view), blocks...);
+                   row_views_.insert(row_views_.end(), 2, view);
+                 });
     cameras_.Constrain(problem_);
     for (PoseBlock& placement : placements_)
       if (problem_.HasParameterBlock(placement.data())) {
@@ -102,7 +102,9 @@ class NetworkProblem {
   }
 
   // For residuals of unit variance; rotations as angles.
-  Eigen::MatrixXd Covariance() { return CovarianceOfCameras(problem_, cameras_, seen_placements_); }
+  ArrowCovariance Covariance() {
+    return CovarianceOfCameras(problem_, cameras_, seen_placements_, row_views_);
+  }
 
   const std::vector<CameraParameter>& parameters() const { return cameras_.parameters(); }
   int num_free() const {
@@ -115,29 +117,34 @@ class NetworkProblem {
   CameraBlocks cameras_;
   std::vector<PoseBlock> placements_;
   std::vector<double*> seen_placements_;
+  std::vector<int> row_views_;
   ceres::Problem problem_;
 };
 
 }  // namespace
 
-bool LensFreedom::any() const { return count() > 0; }
-
-int LensFreedom::count() const {
-  return focal + aspect + 2 * principal_point +
-         static_cast<int>(std::count(distortion.begin(), distortion.end(), true));
+bool LensFreedom::any() const {
+  return focal || aspect || principal_point ||
+         std::find(distortion.begin(), distortion.end(), true) != distortion.end();
 }
 
-double RmsOf(const std::vector<Eigen::Vector2d>& residuals_px) {
-  double sum = 0;
-  for (const Eigen::Vector2d& residual : residuals_px) sum += residual.squaredNorm();
-  return std::sqrt(sum / static_cast<double>(residuals_px.size()));
+void DistanceRms::Add(std::span<const Eigen::Vector2d> residuals_px) {
+  for (const Eigen::Vector2d& residual : residuals_px) squares_px2_ += residual.squaredNorm();
+  count_ += residuals_px.size();
+}
+
+double DistanceRms::px() const { return std::sqrt(squares_px2_ / static_cast<double>(count_)); }
+
+double RmsOf(std::span<const Eigen::Vector2d> residuals_px) {
+  DistanceRms rms;
+  rms.Add(residuals_px);
+  return rms.px();
 }
 
 double AdjustedNetwork::rms_px() const {
-  std::vector<Eigen::Vector2d> all;
-  for (const auto& residuals : residuals_px)
-    all.insert(all.end(), residuals.begin(), residuals.end());
-  return RmsOf(all);
+  DistanceRms rms;
+  for (const auto& residuals : residuals_px) rms.Add(residuals);
+  return rms.px();
 }
 
 std::vector<std::vector<Eigen::Vector2d>> ResidualsOf(const Network& network) {
@@ -161,16 +168,17 @@ AdjustedNetwork Adjust(const Network& network, const AdjustOptions& options) {
   adjusted.converged = summary.termination_type == ceres::CONVERGENCE;
   adjusted.solver_message = summary.message;
   adjusted.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
-  adjusted.solve_s = summary.total_time_in_seconds;
   adjusted.residuals_px = ResidualsOf(adjusted.network);
   adjusted.degrees_of_freedom = summary.num_residuals - problem.num_free();
-  HuberSums sums;
-  for (const auto& of_sighting : adjusted.residuals_px)
-    for (const Eigen::Vector2d& residual : of_sighting) sums.Add(residual.norm(), options.huber_px);
-  adjusted.sigma_px = sums.Sigma_px(adjusted.degrees_of_freedom);
+  const ArrowCovariance covariance = problem.Covariance();
+  NoiseSums sums(options, covariance.redundancies);
+  for (std::size_t i = 0; i < adjusted.residuals_px.size(); ++i)
+    for (const Eigen::Vector2d& residual : adjusted.residuals_px[i])
+      sums.Add(network.array.IndexOf(network.sightings[i].view), residual);
+  adjusted.noise_px = sums.NoiseOfViews_px();
+  adjusted.sigma_px = sums.PooledNoise_px();
   adjusted.parameters = problem.parameters();
-  adjusted.covariance =
-      adjusted.sigma_px * adjusted.sigma_px * sums.mean_weight() * problem.Covariance();
+  adjusted.covariance = sums.VarianceFactor_px2(adjusted.degrees_of_freedom) * covariance.cameras;
   FillSigmas(adjusted.parameters, adjusted.covariance, adjusted.network.array);
   return adjusted;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "calib/planar_pose.h"
+#include "calib/view_noise.h"
 
 namespace articap {
 namespace {
@@ -51,11 +52,10 @@ Camera CameraWith(const CameraSightings& sightings, const Lens& lens) {
 }
 
 double Calibration::rms_px() const {
-  std::vector<Eigen::Vector2d> all;
+  DistanceRms rms;
   for (const SightingResult& sighting : sightings)
-    if (sighting.used)
-      all.insert(all.end(), sighting.residuals_px.begin(), sighting.residuals_px.end());
-  return RmsOf(all);
+    if (sighting.used) rms.Add(sighting.residuals_px);
+  return rms.px();
 }
 
 Result<void> RequireToldCorners(const BoardSpec& board) {
@@ -76,6 +76,8 @@ Calibration MakeCalibration(const std::vector<CameraSightings>& inputs,
   calibration.board = network.board;
   calibration.placements = network.placements;
   calibration.sigma_px = adjusted.sigma_px;
+  calibration.noise_px = adjusted.noise_px;
+  calibration.local_noise_px = LocalNoiseOfViews_px(adjusted);
   calibration.degrees_of_freedom = adjusted.degrees_of_freedom;
   calibration.parameters = adjusted.parameters;
   calibration.covariance = adjusted.covariance;

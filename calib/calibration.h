@@ -55,17 +55,30 @@ struct HeldOut {
   int distances = 0;
 };
 
+// What the pictures say of a lens that was held: the focal length that would fit them best, over
+// the lens' own, and its standard deviation.
+struct HeldLens {
+  int camera = 0;
+  double focal_ratio = 1;
+  double focal_ratio_sigma = 0;
+};
+
 // A calibration with everything that says how good it is.
 struct Calibration {
   CameraArray array;
   BoardSpec board;
   std::vector<Placement> placements;
   std::vector<SightingResult> sightings;
-  double sigma_px = 0;  // of one coordinate of a corner
+  // Standard deviation of one coordinate of a corner: of all views together, and of each of
+  // CameraArray::views().
+  double sigma_px = 0;
+  std::vector<double> noise_px;
+  std::vector<double> local_noise_px;  // LocalNoiseOfViews_px()
   int degrees_of_freedom = 0;
   // Of the free parameters, in the gauge of the first camera.
   std::vector<CameraParameter> parameters;
   Eigen::MatrixXd covariance;
+  std::vector<HeldLens> held_lenses;
   HeldOut held_out;
 
   double rms_px() const;  // over the sightings that were used

@@ -71,13 +71,19 @@ Json MirrorJson(const Mirror& mirror) {
           {"glass_index", mirror.glass_index}};
 }
 
-Json ArrayJson(const CameraArray& array, double sigma_px, double rms_px) {
-  Json json = {{"sigma_px", sigma_px},
+// For Calibration and WandCalibration.
+template <class AnyCalibration>
+Json ArrayJson(const AnyCalibration& calibration, double rms_px) {
+  const CameraArray& array = calibration.array;
+  Json json = {{"sigma_px", calibration.sigma_px},
                {"rms_px", rms_px},
                {"cameras", Json::array()},
                {"mirrors", Json::array()}};
   for (const Camera& camera : array.cameras) json["cameras"].push_back(CameraJson(camera));
   for (const Mirror& mirror : array.mirrors) json["mirrors"].push_back(MirrorJson(mirror));
+  for (const View& view : array.views())
+    (view.mirror < 0 ? json["cameras"][view.camera] : json["mirrors"][view.mirror])["noise_px"] =
+        calibration.noise_px[array.IndexOf(view)];
   return json;
 }
 
@@ -154,7 +160,7 @@ std::string WithReport(const StageReport& report, Json calibration) {
 }  // namespace
 
 std::string CalibrationJson(const Calibration& calibration, const StageReport& report) {
-  Json json = ArrayJson(calibration.array, calibration.sigma_px, calibration.rms_px());
+  Json json = ArrayJson(calibration, calibration.rms_px());
   for (std::size_t i = 0; i < json["cameras"].size(); ++i)
     json["cameras"][i]["coverage"] = CoverageJson(CoverageOf(calibration, static_cast<int>(i)));
   json["board"] = BoardJson(calibration.board);
@@ -171,7 +177,7 @@ std::string CalibrationJson(const Calibration& calibration, const StageReport& r
 }
 
 std::string CalibrationJson(const WandCalibration& calibration, const StageReport& report) {
-  Json json = ArrayJson(calibration.array, calibration.sigma_px, calibration.rms_px);
+  Json json = ArrayJson(calibration, calibration.rms_px);
   json["wand"] = {{"instants", calibration.instants},
                   {"mean_length_mm", calibration.mean_length_mm},
                   {"score", calibration.wand_score},

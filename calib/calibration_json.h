@@ -14,7 +14,7 @@ namespace articap {
 // pictures px; corners and residuals are rounded to 0.001 px; null stands for what is not known.
 // The same calibration gives the same bytes.
 //   sigma_px, rms_px, cameras: [{name, width, height, lens, lens_sigmas, cam_from_stage,
-//     time_offset_s, time_offset_sigma_s}], mirrors
+//     time_offset_s, time_offset_sigma_s, noise_px}], mirrors: [{..., noise_px}]
 // of a board's calibration also
 //   board, degrees_of_freedom, held_out, placements, cameras[].coverage,
 //   sightings: [{source, view, camera, mirror, placement, used, reason, rms_px, corners, points_px,

@@ -28,24 +28,31 @@ std::size_t CountUsed(const Calibration& calibration) {
 
 // Root mean square over the sightings of one view, px.
 double RmsOfView_px(const Calibration& calibration, const View& view) {
-  std::vector<Eigen::Vector2d> residuals;
+  DistanceRms rms;
   for (const SightingResult& sighting : calibration.sightings)
-    if (sighting.used && sighting.view == view)
-      residuals.insert(residuals.end(), sighting.residuals_px.begin(), sighting.residuals_px.end());
-  return RmsOf(residuals);
+    if (sighting.used && sighting.view == view) rms.Add(sighting.residuals_px);
+  return rms.px();
+}
+
+// How much larger a view's residuals are than those of neighbouring corners tell.
+double MisfitOf(const Calibration& calibration, const View& view) {
+  const int index = calibration.array.IndexOf(view);
+  return calibration.noise_px[index] / calibration.local_noise_px[index];
 }
 
 ReportTable ViewTable(const Calibration& calibration) {
-  ReportTable table = {"view", {"sightings", "rms_px", "coverage_percent"}, {}};
+  ReportTable table = {
+      "view", {"sightings", "rms_px", "noise_px", "misfit", "coverage_percent"}, {}};
   for (const View& view : calibration.array.views()) {
     const auto sightings = std::count_if(
         calibration.sightings.begin(), calibration.sightings.end(),
         [&](const SightingResult& sighting) { return sighting.used && sighting.view == view; });
     const double coverage_percent =
         view.mirror < 0 ? 100 * CoverageOf(calibration, view.camera).part() : NAN;
-    table.rows.push_back(
-        {calibration.array.NameOf(view),
-         {static_cast<double>(sightings), RmsOfView_px(calibration, view), coverage_percent}});
+    table.rows.push_back({calibration.array.NameOf(view),
+                          {static_cast<double>(sightings), RmsOfView_px(calibration, view),
+                           calibration.noise_px[calibration.array.IndexOf(view)],
+                           MisfitOf(calibration, view), coverage_percent}});
   }
   return table;
 }
@@ -65,22 +72,6 @@ ReportTable LensTable(const CameraArray& array) {
     for (int i = 0; i < Lens::kNumDistortion; ++i)
       if (lens.distortion[i] != 0 || sigmas.distortion[i] != 0)
         table.rows.push_back({of + kNames[i], {lens.distortion[i], sigmas.distortion[i]}});
-  }
-  return table;
-}
-
-// Where each camera but the first stands, in the stage frame.
-ReportTable CameraTable(const CameraArray& array) {
-  ReportTable table = {
-      "camera",
-      {"x_mm", "y_mm", "z_mm", "sigma_mm", "sigma_deg", "time_offset_ms", "time_offset_sigma_ms"},
-      {}};
-  for (const Camera& camera : array.cameras) {
-    const Eigen::Vector3d at = camera.cam_from_stage.Inverse().translation_mm;
-    table.rows.push_back({camera.name,
-                          {at.x(), at.y(), at.z(), camera.sigmas.translation_mm.norm(),
-                           camera.sigmas.rotation_rad.norm() / kDegree, 1e3 * camera.time_offset_s,
-                           1e3 * camera.sigmas.time_offset_s}});
   }
   return table;
 }
@@ -180,6 +171,53 @@ std::string FaultOfLinks(const Calibration& calibration) {
   return {};
 }
 
+// Views most of which would have to be left out, or whose residuals are no noise.
+std::string FaultOfViews(const Calibration& calibration, const CalibrationLimits& limits) {
+  for (const View& view : calibration.array.views()) {
+    std::size_t all = 0, aside = 0;
+    for (const SightingResult& sighting : calibration.sightings)
+      if (sighting.view == view) {
+        ++all;
+        if (!sighting.used) ++aside;
+      }
+    const std::string name = calibration.array.NameOf(view);
+    if (3 * aside > all)
+      return fmt::format(
+          "{}: {} of {} sightings do not fit the others; did it move between pictures, or do the "
+          "pictures show several boards? Fix everything in its place and record again",
+          name, aside, all);
+    // No view is bad that fits so well.
+    constexpr double kGood_px = 0.1;
+    const int index = calibration.array.IndexOf(view);
+    if (calibration.noise_px[index] > kGood_px && MisfitOf(calibration, view) > limits.max_misfit)
+      return fmt::format(
+          "{}: residuals of {:.2f} px run the same way over parts of the board, where neighbouring "
+          "corners agree to {:.2f} px: did it move between pictures, is the board bent, is a lens "
+          "that was held another one? Fix everything in its place and record again",
+          name, calibration.noise_px[index], calibration.local_noise_px[index]);
+  }
+  return {};
+}
+
+// Lenses that were held, and are not those of the pictures.
+std::string FaultOfHeldLenses(const Calibration& calibration, const CalibrationLimits& limits) {
+  constexpr double kCertain_sigmas = 4;
+  for (const HeldLens& held : calibration.held_lenses) {
+    const double error = std::abs(held.focal_ratio - 1);
+    if (!(error > limits.max_held_focal_percent / 100) ||
+        !(error > kCertain_sigmas * held.focal_ratio_sigma))
+      continue;
+    const Camera& camera = calibration.array.cameras[held.camera];
+    return fmt::format(
+        "{}: its lens was held at a focal length of {:.1f} px, but by these pictures it is {:.1f} "
+        "+- {:.1f}: was it calibrated at another zoom, focus or size of pictures? Calibrate it "
+        "anew, or let it be adjusted",
+        camera.name, camera.lens.fx_px, held.focal_ratio * camera.lens.fx_px,
+        held.focal_ratio_sigma * camera.lens.fx_px);
+  }
+  return {};
+}
+
 // The first thing that makes it unusable, with what to do; empty where nothing does.
 std::string FaultOf(const Calibration& calibration, const CalibrationLimits& limits) {
   // With fewer the residuals do not tell their own standard deviation.
@@ -206,6 +244,9 @@ std::string FaultOf(const Calibration& calibration, const CalibrationLimits& lim
           "record the board tilted by 20 to 40 degrees to all sides, and at several distances",
           camera.name, percent, limits.max_focal_sigma_percent);
   }
+  if (std::string fault = FaultOfHeldLenses(calibration, limits); !fault.empty()) return fault;
+  if (calibration.array.views().size() > 1)
+    if (std::string fault = FaultOfViews(calibration, limits); !fault.empty()) return fault;
   if (calibration.held_out.rigidity_mm > limits.max_rigidity_mm)
     return fmt::format(
         "distances on held-out views are wrong by {:.2f} mm, more than {:g}: record more views "
@@ -229,6 +270,21 @@ std::string VerdictOn(const Calibration& calibration) {
 }
 
 }  // namespace
+
+ReportTable CameraTable(const CameraArray& array) {
+  ReportTable table = {
+      "camera",
+      {"x_mm", "y_mm", "z_mm", "sigma_mm", "sigma_deg", "time_offset_ms", "time_offset_sigma_ms"},
+      {}};
+  for (const Camera& camera : array.cameras) {
+    const Eigen::Vector3d at = camera.cam_from_stage.Inverse().translation_mm;
+    table.rows.push_back({camera.name,
+                          {at.x(), at.y(), at.z(), camera.sigmas.translation_mm.norm(),
+                           camera.sigmas.rotation_rad.norm() / kDegree, 1e3 * camera.time_offset_s,
+                           1e3 * camera.sigmas.time_offset_s}});
+  }
+  return table;
+}
 
 void DescribePlacesAnew(const CameraArray& array, StageReport& report) {
   for (ReportTable& table : report.tables) {

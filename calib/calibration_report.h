@@ -14,6 +14,10 @@ struct CalibrationLimits {
   double max_rms_px = 1;
   double max_focal_sigma_percent = 1;
   double max_rigidity_mm = 1;
+  // Of a lens that was held, where the pictures contradict it by more than this.
+  double max_held_focal_percent = 2;
+  // Of a view's noise, over that of corners against their neighbours.
+  double max_misfit = 3;
 };
 
 // What is said of every calibration: figures, the parameters with their sigmas, every view with its
@@ -21,6 +25,9 @@ struct CalibrationLimits {
 // e.g. "calibrate lens".
 StageReport DescribeCalibration(const std::string& kind, const Calibration& calibration,
                                 const CalibrationLimits& limits);
+
+// Where each camera stands in the stage frame, and how its clock differs.
+ReportTable CameraTable(const CameraArray& array);
 
 // The tables of a report that say where cameras and mirrors stand, once more in the array's own
 // stage frame: for a stage that is chosen after the report was made. Also for a wand's report.

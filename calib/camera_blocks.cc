@@ -13,7 +13,6 @@
 #include <memory>
 #include <utility>
 
-#include "calib/covariance.h"
 #include "core/check.h"
 
 namespace articap {
@@ -78,6 +77,7 @@ ArrowJacobian JacobianOf(ceres::Problem& problem, const CameraBlocks& cameras,
   jacobian.row_starts = std::move(matrix.rows);
   jacobian.columns = std::move(matrix.cols);
   jacobian.values = std::move(matrix.values);
+  jacobian.views = cameras.num_views();
   return jacobian;
 }
 
@@ -206,7 +206,7 @@ void CameraBlocks::ConstrainLens(ceres::Problem& problem, int camera) {
 void CameraBlocks::ConstrainPose(ceres::Problem& problem, int camera) {
   PoseBlock& block = cameras_[camera].pose;
   if (!problem.HasParameterBlock(block.data())) return;
-  if (camera == 0 || !options_.free_poses) {
+  if (camera == 0) {
     problem.SetParameterBlockConstant(block.data());
     return;
   }
@@ -230,10 +230,6 @@ void CameraBlocks::ConstrainTimeOffset(ceres::Problem& problem, int camera) {
 void CameraBlocks::ConstrainMirror(ceres::Problem& problem, int mirror_index) {
   double* block = mirror(mirror_index);
   if (!problem.HasParameterBlock(block)) return;
-  if (!options_.free_mirrors) {
-    problem.SetParameterBlockConstant(block);
-    return;
-  }
   free_blocks_.push_back(block);
   for (int axis = 0; axis < 3; ++axis) parameters_.push_back({Kind::kMirror, mirror_index, axis});
 }
@@ -253,6 +249,15 @@ CameraArray CameraBlocks::Array() const {
   return array;
 }
 
+ceres::LossFunction* LossOf(const AdjustOptions& options, int view) {
+  // Huber's loss of residuals over n is that from n k on, over n^2.
+  const double noise = options.relative_noise.empty() ? 1 : options.relative_noise[view];
+  ceres::LossFunction* const huber =
+      options.huber_px > 0 ? new ceres::HuberLoss(noise * options.huber_px) : nullptr;
+  if (noise == 1) return huber;
+  return new ceres::ScaledLoss(huber, 1 / (noise * noise), ceres::TAKE_OWNERSHIP);
+}
+
 ceres::Solver::Summary SolveBySchur(ceres::Problem& problem, const std::vector<double*>& places,
                                     const AdjustOptions& options) {
   constexpr double kTolerance = 1e-10;
@@ -264,7 +269,8 @@ ceres::Solver::Summary SolveBySchur(ceres::Problem& problem, const std::vector<d
   for (double* block : blocks) solver.linear_solver_ordering->AddElementToGroup(block, 1);
   for (double* block : places) solver.linear_solver_ordering->AddElementToGroup(block, 0);
   solver.max_num_iterations = options.max_iterations;
-  solver.num_threads = options.num_threads;
+  // More threads add up in another order, to other last digits.
+  solver.num_threads = 1;
   solver.function_tolerance = solver.parameter_tolerance = kTolerance;
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
@@ -272,14 +278,19 @@ ceres::Solver::Summary SolveBySchur(ceres::Problem& problem, const std::vector<d
   return summary;
 }
 
-Eigen::MatrixXd CovarianceOfCameras(ceres::Problem& problem, const CameraBlocks& cameras,
-                                    const std::vector<double*>& places) {
-  Eigen::MatrixXd covariance = CameraCovariance(JacobianOf(problem, cameras, places));
+ArrowCovariance CovarianceOfCameras(ceres::Problem& problem, const CameraBlocks& cameras,
+                                    const std::vector<double*>& places,
+                                    const std::vector<int>& row_views) {
+  ArrowJacobian jacobian = JacobianOf(problem, cameras, places);
+  ARTICAP_CHECK(static_cast<int>(row_views.size()) == jacobian.rows);
+  jacobian.row_views = row_views;
+  ArrowCovariance covariance = CovarianceOf(jacobian);
   // Ceres' tangents of quaternions are half angles.
-  Eigen::VectorXd scale = Eigen::VectorXd::Ones(covariance.rows());
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(covariance.cameras.rows());
   for (int i = 0; i < scale.size(); ++i)
     if (cameras.parameters()[i].kind == Kind::kRotation) scale(i) = 2;
-  return scale.asDiagonal() * covariance * scale.asDiagonal();
+  covariance.cameras = scale.asDiagonal() * covariance.cameras * scale.asDiagonal();
+  return covariance;
 }
 
 void FillSigmas(const std::vector<CameraParameter>& parameters, const Eigen::MatrixXd& covariance,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <ceres/loss_function.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "calib/cost_functions/corner_cost.h"
+#include "calib/covariance.h"
 #include "calib/network.h"
 
 namespace articap {
@@ -32,6 +34,7 @@ class CameraBlocks {
   double* time_offset(int camera) { return &cameras_[camera].time_offset_s; }
   double* mirror(int mirror) { return mirrors_[mirror].data(); }
   const Mirror& mirror_info(int mirror) const { return array_.mirrors[mirror]; }
+  int num_views() const { return static_cast<int>(cameras_.size() + mirrors_.size()); }
 
   // Once all residuals are in: manifolds, and what is held. Blocks that no residual has are left
   // out.
@@ -64,15 +67,21 @@ class CameraBlocks {
   std::vector<double*> free_blocks_;
 };
 
+// What the residuals of a view (its index in CameraArray::views()) cost: of their squares over its
+// noise, with Huber's loss. The caller owns it; null: plain least squares.
+ceres::LossFunction* LossOf(const AdjustOptions& options, int view);
+
 // Minimises by Levenberg and Marquardt's method. `places`, blocks that share no residual with one
 // another (the board's placements, the wand's instants), are eliminated first.
 ceres::Solver::Summary SolveBySchur(ceres::Problem& problem, const std::vector<double*>& places,
                                     const AdjustOptions& options);
 
 // The covariance of the cameras' free parameters at the solution, for residuals of unit variance,
-// the places being free too; rotations as angles.
-Eigen::MatrixXd CovarianceOfCameras(ceres::Problem& problem, const CameraBlocks& cameras,
-                                    const std::vector<double*>& places);
+// the places being free too; rotations as angles. `row_views` says of each residual, in the order
+// in which they were added, which view's it is; -1: no view's.
+ArrowCovariance CovarianceOfCameras(ceres::Problem& problem, const CameraBlocks& cameras,
+                                    const std::vector<double*>& places,
+                                    const std::vector<int>& row_views);
 
 // Writes the standard deviations of a covariance (already times the variance of the residuals) into
 // the cameras and mirrors; 0 for what was held.

@@ -51,21 +51,31 @@ std::vector<SeenMarker> MarkersIn(const GrayPicture& picture, int dictionary) {
 
 cv::Point2d PointOf(const Eigen::Vector2d& point) { return {point.x(), point.y()}; }
 
+// The corners of markers on the board, in squares, and in the picture.
+struct MarkerPoints {
+  std::vector<cv::Point2d> squares, points_px;
+};
+
+MarkerPoints PointsOf(const BoardSpec& board, const std::vector<PlacedMarker>& markers) {
+  MarkerPoints at;
+  for (const PlacedMarker& placed : markers) {
+    const auto corners = CornersInSquares(board, placed.marker);
+    for (std::size_t k = 0; k < 4; ++k) {
+      at.squares.push_back(PointOf(corners[k]));
+      at.points_px.push_back(PointOf(placed.corners_px[k]));
+    }
+  }
+  return at;
+}
+
 // Those that lie as a plane board shows them. Lenses bend it: a third of a square is allowed.
 std::vector<PlacedMarker> Consistent(const BoardSpec& board,
                                      const std::vector<PlacedMarker>& markers) {
   constexpr double kMostOff_squares = 0.3;
   if (markers.size() < 2) return markers;
-  std::vector<cv::Point2d> squares, points;
-  for (const PlacedMarker& placed : markers) {
-    const auto corners = CornersInSquares(board, placed.marker);
-    for (std::size_t k = 0; k < 4; ++k) {
-      squares.push_back(PointOf(corners[k]));
-      points.push_back(PointOf(placed.corners_px[k]));
-    }
-  }
+  const MarkerPoints at = PointsOf(board, markers);
   std::vector<unsigned char> is_inlier;
-  if (cv::findHomography(points, squares, cv::RANSAC, kMostOff_squares, is_inlier).empty())
+  if (cv::findHomography(at.points_px, at.squares, cv::RANSAC, kMostOff_squares, is_inlier).empty())
     return {};
   std::vector<PlacedMarker> consistent;
   for (std::size_t i = 0; i < markers.size(); ++i)
@@ -101,15 +111,8 @@ std::optional<Eigen::Vector2d> Predict(const BoardSpec& board, const Eigen::Vect
   std::sort(markers.begin(), markers.end(), is_nearer);
   if (DistanceTo(corner, markers.front().marker) > 1.6) return std::nullopt;
   markers.resize(std::min(markers.size(), kMarkersAround));
-  std::vector<cv::Point2d> squares, points;
-  for (const PlacedMarker& placed : markers) {
-    const auto corners = CornersInSquares(board, placed.marker);
-    for (std::size_t k = 0; k < 4; ++k) {
-      squares.push_back(PointOf(corners[k]));
-      points.push_back(PointOf(placed.corners_px[k]));
-    }
-  }
-  const cv::Mat homography = cv::findHomography(squares, points);
+  const MarkerPoints at = PointsOf(board, markers);
+  const cv::Mat homography = cv::findHomography(at.squares, at.points_px);
   if (homography.empty()) return std::nullopt;
   std::vector<cv::Point2d> predicted;
   cv::perspectiveTransform(std::vector<cv::Point2d>{PointOf(corner)}, predicted, homography);

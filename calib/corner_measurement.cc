@@ -9,6 +9,7 @@
 #include <opencv2/core/eigen.hpp>
 #include <utility>
 
+#include "calib/robust.h"
 #include "core/check.h"
 
 namespace articap {
@@ -27,18 +28,12 @@ constexpr double kEdgeWidth = 2.5631;
 // At the top of the scale: what 8 bits know as 254 and 255.
 constexpr double kSaturated = 253.5 / 255;
 
-double MedianOf(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
+// 0 where there are none.
 template <class Get>
 double MedianOver(const std::vector<CornerFit>& fits, const Get& get) {
   std::vector<double> values;
   for (const CornerFit& fit : fits) values.push_back(get(fit));
-  return MedianOf(std::move(values));
+  return values.empty() ? 0 : UpperMedianOf(std::move(values));
 }
 
 // How far markers are from the corners of the squares that they are printed in, squares.

@@ -27,12 +27,13 @@ struct CornerPoint {
 };
 
 // Of each placement, the corners that two views or more show.
-std::map<int, std::vector<CornerPoint>> TriangulateCorners(const Network& network) {
+std::map<int, std::vector<CornerPoint>> TriangulateCorners(const Network& network,
+                                                           const std::vector<double>& noise_px) {
   std::map<std::pair<int, int>, std::vector<Sight>> sights;  // placement, corner
   for (const NetworkSighting& sighting : network.sightings)
     for (std::size_t i = 0; i < sighting.corners.size(); ++i)
       sights[{sighting.placement, sighting.corners[i]}].push_back(
-          {sighting.view, sighting.points_px[i]});
+          {sighting.view, sighting.points_px[i], noise_px[network.array.IndexOf(sighting.view)]});
   std::map<int, std::vector<CornerPoint>> corners;
   for (const auto& [key, of_corner] : sights)
     if (const auto point = Triangulate(network.array, of_corner))
@@ -42,7 +43,7 @@ std::map<int, std::vector<CornerPoint>> TriangulateCorners(const Network& networ
 
 struct RigiditySums {
   double squares_mm2 = 0;
-  double expected_mm2 = 0;  // for corners with a sigma of 1 px
+  double expected_mm2 = 0;
   int distances = 0;
 };
 
@@ -57,7 +58,7 @@ void AddDistances(const BoardSpec& board, const std::vector<CornerPoint>& corner
                                  .norm();
       const Eigen::Vector3d along = between.normalized();
       const Eigen::Matrix3d covariance =
-          corners[i].point.covariance_per_px2 + corners[j].point.covariance_per_px2;
+          corners[i].point.covariance_mm2 + corners[j].point.covariance_mm2;
       sums.squares_mm2 += (between.norm() - true_mm) * (between.norm() - true_mm);
       sums.expected_mm2 += along.dot(covariance * along);
       ++sums.distances;
@@ -69,7 +70,7 @@ void AddDistances(const BoardSpec& board, const std::vector<CornerPoint>& corner
 double HeldOutRms_px(const Network& network, const LensFreedom& freedom) {
   constexpr int kFolds = 3;
   if (network.placements.size() < 2 * kFolds) return HeldOut::kUnknown;
-  std::vector<Eigen::Vector2d> residuals;
+  DistanceRms rms;
   for (int fold = 0; fold < kFolds; ++fold) {
     AdjustOptions lens_alone;
     lens_alone.lenses = {freedom};
@@ -77,14 +78,14 @@ double HeldOutRms_px(const Network& network, const LensFreedom& freedom) {
         Adjust(WithPlacements(network, [&](int i) { return i % kFolds != fold; }), lens_alone);
     Network left_out = WithPlacements(network, [&](int i) { return i % kFolds == fold; });
     left_out.array = others.network.array;
-    for (const auto& of_sighting : Adjust(left_out, {}).residuals_px)
-      residuals.insert(residuals.end(), of_sighting.begin(), of_sighting.end());
+    const AdjustedNetwork seen = Adjust(left_out, {});
+    for (const auto& of_sighting : seen.residuals_px) rms.Add(of_sighting);
   }
-  return RmsOf(residuals);
+  return rms.px();
 }
 
-HeldOut HeldOutRigidity(const Network& network, const AdjustOptions& options, double sigma_px,
-                        int stride) {
+HeldOut HeldOutRigidity(const AdjustedNetwork& adjusted, const AdjustOptions& options, int stride) {
+  const Network& network = adjusted.network;
   HeldOut held_out;
   const auto is_left_out = [&](int placement) { return placement % stride == stride / 2; };
   const AdjustedNetwork others = Adjust(
@@ -92,14 +93,14 @@ HeldOut HeldOutRigidity(const Network& network, const AdjustOptions& options, do
   Network left_out = WithPlacements(network, is_left_out);
   left_out.array = others.network.array;
   RigiditySums sums;
-  for (const auto& [placement, corners] : TriangulateCorners(left_out)) {
+  for (const auto& [placement, corners] : TriangulateCorners(left_out, adjusted.noise_px)) {
     AddDistances(network.board, corners, sums);
     ++held_out.views;
   }
   if (sums.distances == 0) return held_out;
   held_out.distances = sums.distances;
   held_out.rigidity_mm = std::sqrt(sums.squares_mm2 / sums.distances);
-  held_out.expected_rigidity_mm = sigma_px * std::sqrt(sums.expected_mm2 / sums.distances);
+  held_out.expected_rigidity_mm = std::sqrt(sums.expected_mm2 / sums.distances);
   return held_out;
 }
 

@@ -14,8 +14,8 @@ double HeldOutRms_px(const Network& network, const LensFreedom& freedom);
 // The same for cameras and mirrors that see the board together: every `stride`th placement is left
 // out, the rest adjusted, and of the placements left out each corner that two views or more show is
 // triangulated. The distances between corners, all pairs of a placement, are compared with the
-// board's. The sigma of the corners says what they should be.
-HeldOut HeldOutRigidity(const Network& network, const AdjustOptions& options, double sigma_px,
+// board's. The noise of the views says what they should be. `options` as adjusted with.
+HeldOut HeldOutRigidity(const AdjustedNetwork& adjusted, const AdjustOptions& options,
                         int stride = 5);
 
 }  // namespace articap

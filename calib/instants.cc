@@ -9,6 +9,7 @@
 #include <utility>
 
 namespace articap {
+
 double UsualInterval_s(std::vector<SessionTime> times) {
   std::sort(times.begin(), times.end());
   std::vector<double> intervals_s;

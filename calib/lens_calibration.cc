@@ -17,13 +17,15 @@ void VisitOptions(LensOptions& options, OptionVisitor& visit) {
                     {"pinhole", "k1", "k1k2", "brown4", "brown5", "rational"},
                     "the richest lens model to try: radial k1, k2, tangential p1, p2 (brown4), k3 "
                     "(brown5), k4 to k6 (rational)");
-  visit("simplify", options.simplify, "leave out coefficients that the views do not support");
+  visit("simplify", options.simplify,
+        "leave out coefficients that the views do not support; false: keep the model as asked for");
   visit("fixed_aspect", options.fixed_aspect, "fx = fy: square pixels");
   visit("fixed_principal_point", options.fixed_principal_point,
         "the lens' axis meets the middle of the picture");
   visit("huber_sigmas", options.huber_sigmas,
         "corners off by more standard deviations count less; 0: plain least squares");
-  visit("set_views_aside", options.set_views_aside, "leave out views that do not fit the others");
+  visit("set_views_aside", options.set_views_aside,
+        "leave out views that do not fit the others; false: keep views that do not fit the others");
   visit("max_rms_px", options.max_rms_px, "not usable with larger residuals; px");
   visit("max_focal_sigma_percent", options.max_focal_sigma_percent,
         "not usable where the focal length is known worse; percent");

@@ -84,4 +84,22 @@ AdjustedNetwork SimplifyLenses(AdjustedNetwork adjusted, const LensOptions& opti
   }
 }
 
+std::vector<HeldLens> JudgeHeldLenses(const AdjustedNetwork& adjusted, AdjustOptions adjust) {
+  std::vector<int> held;
+  for (int camera = 0; camera < static_cast<int>(adjust.lenses.size()); ++camera)
+    if (!adjust.lenses[camera].any()) {
+      held.push_back(camera);
+      adjust.lenses[camera].focal = true;
+    }
+  if (held.empty()) return {};
+  const AdjustedNetwork free = Adjust(adjusted.network, adjust);
+  std::vector<HeldLens> lenses;
+  for (int camera : held) {
+    const double held_px = adjusted.network.array.cameras[camera].lens.fx_px;
+    const Camera& found = free.network.array.cameras[camera];
+    lenses.push_back({camera, found.lens.fx_px / held_px, found.sigmas.fx_px / held_px});
+  }
+  return lenses;
+}
+
 }  // namespace articap

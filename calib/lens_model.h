@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "calib/calibration.h"
 #include "calib/lens_calibration.h"
 #include "calib/network.h"
 
@@ -20,5 +21,8 @@ bool IsSupported(const AdjustedNetwork& adjusted, int camera, LensModel model);
 // camera, are changed along. Lenses that are held, and rational ones, stay.
 AdjustedNetwork SimplifyLenses(AdjustedNetwork adjusted, const LensOptions& options,
                                AdjustOptions& adjust, std::vector<LensModel>& models);
+
+// Of lenses that were held: adjusts once more with their focal lengths free.
+std::vector<HeldLens> JudgeHeldLenses(const AdjustedNetwork& adjusted, AdjustOptions adjust);
 
 }  // namespace articap

@@ -99,7 +99,7 @@ Result<AdjustedNetwork> StartFromNothing(const BoardSpec& board, const CameraSig
 
 void Simplify(SolvedLens& solved, const LensOptions& options) {
   std::vector<LensModel> models = {solved.model};
-  const double huber_px = HuberFor_px(solved.adjusted.residuals_px, options.huber_sigmas);
+  const double huber_px = HuberFor_px(solved.adjusted, {}, options.huber_sigmas);
   AdjustOptions adjust = OptionsFor(FreedomOf(solved.model, options), huber_px);
   solved.adjusted = SimplifyLenses(std::move(solved.adjusted), options, adjust, models);
   solved.model = models[0];
@@ -122,8 +122,7 @@ Result<AdjustedNetwork> SolveFullModel(const BoardSpec& board, const CameraSight
   // Now that the lens is known, a board may turn out to stand in its other pose.
   const Network again = PlaceSightings(board, input, adjusted.network.array.cameras[0], kept);
   if (again.sightings.empty()) return NoPlane(input);
-  return Adjust(again,
-                OptionsFor(freedom, HuberFor_px(adjusted.residuals_px, options.huber_sigmas)));
+  return Adjust(again, OptionsFor(freedom, HuberFor_px(adjusted, {}, options.huber_sigmas)));
 }
 
 Result<Camera> StartOf(const BoardSpec& board, const CameraSightings& camera) {
@@ -181,7 +180,7 @@ bool IsDenominatorKnown(const Camera& camera) {
 // The rational model needs views that reach into the corners of a wide lens; where they do not, its
 // numerator and denominator cancel and wander off together.
 void TryRational(SolvedLens& solved, const LensOptions& options) {
-  const double huber_px = HuberFor_px(solved.adjusted.residuals_px, options.huber_sigmas);
+  const double huber_px = HuberFor_px(solved.adjusted, {}, options.huber_sigmas);
   AdjustedNetwork rational = Adjust(solved.adjusted.network,
                                     OptionsFor(FreedomOf(LensModel::kRational, options), huber_px));
   const double before_px = HeldOutRms_px(solved.adjusted.network, FreedomOf(solved.model, options));

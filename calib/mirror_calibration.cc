@@ -7,12 +7,9 @@
 #include <map>
 #include <utility>
 
-#include "calib/calibration_report.h"
-#include "calib/held_out.h"
-#include "calib/lens_model.h"
 #include "calib/lens_solver.h"
 #include "calib/mirror_network.h"
-#include "calib/network_screening.h"
+#include "calib/network_calibration.h"
 
 namespace articap {
 namespace {
@@ -71,14 +68,22 @@ void VisitOptions(MirrorOptions& options, OptionVisitor& visit) {
   visit("glass_mm", options.glass_mm,
         "thickness of the glass before a second-surface mirror's silver; 0: front surface; mm");
   visit("glass_index", options.glass_index, "refractive index of that glass");
-  visit("adjust_lens", options.adjust_lens,
-        "adjust a lens that was calibrated before along with the mirror; false: hold it");
+  visit(
+      "adjust_lens", options.adjust_lens,
+      "adjust a lens that was calibrated before along with the mirror; false: hold a lens that was "
+      "calibrated before");
   visit("huber_sigmas", options.huber_sigmas,
         "corners off by more standard deviations count less; 0: plain least squares");
-  visit("set_views_aside", options.set_views_aside, "leave out views that do not fit the others");
+  visit("set_views_aside", options.set_views_aside,
+        "leave out views that do not fit the others; false: keep views that do not fit the others");
   visit("max_rms_px", options.max_rms_px, "not usable with larger residuals; px");
   visit("max_rigidity_mm", options.max_rigidity_mm,
         "not usable with larger errors of distances on held-out views; mm");
+  visit("max_held_focal_percent", options.max_held_focal_percent,
+        "not usable where the pictures contradict the focal length of a lens that is held by more; "
+        "percent");
+  visit("max_misfit", options.max_misfit,
+        "not usable where residuals are more times as large as neighbouring corners tell");
 }
 
 Result<StageResult<Calibration>> CalibrateMirror(const BoardSpec& board,
@@ -94,23 +99,21 @@ Result<StageResult<Calibration>> CalibrateMirror(const BoardSpec& board,
   if (!network) return tl::unexpected(network.error());
   AdjustOptions adjust;
   adjust.lenses = {start->freedom};
-  AdjustedNetwork adjusted = AdjustAndScreen(
-      *std::move(network), adjust, {options.huber_sigmas, options.set_views_aside}, set_aside);
-  adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
-  if (lens_options.simplify) {
-    std::vector<LensModel> models = {start->model};
-    adjusted = SimplifyLenses(std::move(adjusted), lens_options, adjust, models);
-  }
-  Calibration calibration = MakeCalibration({camera}, adjusted, set_aside);
-  calibration.held_out = HeldOutRigidity(adjusted.network, adjust, adjusted.sigma_px);
-  StageReport report =
-      DescribeCalibration("calibrate mirror", calibration,
-                          {.max_rms_px = options.max_rms_px,
-                           .max_focal_sigma_percent = lens_options.max_focal_sigma_percent,
-                           .max_rigidity_mm = options.max_rigidity_mm});
-  report.warnings.insert(report.warnings.begin(), start->warnings.begin(), start->warnings.end());
-  report.options = EchoOptions(options);
-  return StageResult<Calibration>{std::move(calibration), std::move(report)};
+  StageResult<Calibration> mirror =
+      CalibrateNetwork("calibrate mirror", {camera},
+                       {*std::move(network),
+                        std::move(adjust),
+                        {start->model},
+                        std::move(set_aside),
+                        std::move(start->warnings)},
+                       lens_options, {options.huber_sigmas, options.set_views_aside},
+                       {.max_rms_px = options.max_rms_px,
+                        .max_focal_sigma_percent = lens_options.max_focal_sigma_percent,
+                        .max_rigidity_mm = options.max_rigidity_mm,
+                        .max_held_focal_percent = options.max_held_focal_percent,
+                        .max_misfit = options.max_misfit});
+  mirror.report.options = EchoOptions(options);
+  return mirror;
 }
 
 }  // namespace articap

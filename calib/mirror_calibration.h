@@ -20,6 +20,8 @@ struct MirrorOptions {
   bool set_views_aside = true;
   double max_rms_px = 1;
   double max_rigidity_mm = 1;
+  double max_held_focal_percent = 2;
+  double max_misfit = 3;
 };
 void VisitOptions(MirrorOptions& options, OptionVisitor& visit);
 

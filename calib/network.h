@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,21 +48,19 @@ struct LensFreedom {
   std::array<bool, Lens::kNumDistortion> distortion{};
 
   bool any() const;
-  int count() const;
 };
 
 struct AdjustOptions {
   // One a camera. The first camera's pose is always held: it is the gauge.
   std::vector<LensFreedom> lenses;
-  bool free_poses = true;
-  bool free_mirrors = true;
   // Of all cameras but the first, in a moving network.
   bool free_time_offsets = false;
-  // Huber's loss from here on, px; 0: plain least squares.
+  // The noise of each view (CameraArray::views()) over the usual one: its residuals count the less.
+  // Empty: all alike.
+  std::vector<double> relative_noise;
+  // Huber's loss from here on, px of a view of the usual noise; 0: plain least squares.
   double huber_px = 0;
   int max_iterations = 100;
-  // More threads add up in another order, to other last digits.
-  int num_threads = 1;
 };
 
 // A parameter of the cameras in the order of AdjustedNetwork::covariance.
@@ -88,12 +88,12 @@ struct AdjustedNetwork {
   bool converged = false;
   std::string solver_message;
   int iterations = 0;
-  double solve_s = 0;
   // seen - expected, px; one list a sighting, one entry a corner.
   std::vector<std::vector<Eigen::Vector2d>> residuals_px;
-  // Standard deviation of one coordinate of a corner, without outliers (HuberSums); NaN where there
-  // are no degrees of freedom.
+  // Standard deviation of one coordinate of a corner, without outliers (HuberSums): of all views
+  // together, and of each (calib/view_noise.h). NaN where there are no degrees of freedom.
   double sigma_px = 0;
+  std::vector<double> noise_px;
   int degrees_of_freedom = 0;
   // Of the cameras' free parameters, everything else being free too. Rotations are about the
   // camera's axes (exp(w) R), mirrors by the foot of the perpendicular in the camera frame.
@@ -103,12 +103,23 @@ struct AdjustedNetwork {
   double rms_px() const;  // over all corners, of the distance
 };
 
-// The root mean square of the distances.
-double RmsOf(const std::vector<Eigen::Vector2d>& residuals_px);
+// The root mean square of distances, list by list; NaN of none.
+class DistanceRms {
+ public:
+  void Add(std::span<const Eigen::Vector2d> residuals_px);
+  double px() const;
+
+ private:
+  double squares_px2_ = 0;
+  std::size_t count_ = 0;
+};
+
+double RmsOf(std::span<const Eigen::Vector2d> residuals_px);
 
 // Bundle adjustment: lenses, camera poses, mirrors, time offsets and the board's placements that
 // together minimise the squared distances between where corners were seen and where they should
-// be. The sigmas of cameras and mirrors in the network are filled in.
+// be, over the noise of their views. The sigmas of cameras and mirrors in the network are filled
+// in.
 // Triggs et al., "Bundle adjustment - a modern synthesis", 1999.
 AdjustedNetwork Adjust(const Network& network, const AdjustOptions& options);
 

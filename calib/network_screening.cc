@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "calib/robust.h"
+#include "calib/view_noise.h"
 #include "calib/view_screening.h"
 
 namespace articap {
@@ -43,26 +45,43 @@ void SetAsideBehind(Network& network, LeftOutSightings& set_aside) {
   network.sightings = std::move(kept);
 }
 
-}  // namespace
-
-double HuberFor_px(const std::vector<std::vector<Eigen::Vector2d>>& residuals_px, double sigmas) {
-  // Perfect corners, as tests make them, have no residuals to take a scale from.
-  constexpr double kLeast_px = 1e-3;
-  return sigmas == 0 ? 0 : std::max(kLeast_px, sigmas * RobustSigmaOf(residuals_px));
+// Weights and Huber's loss by what an adjustment left. Whether the weights change.
+bool Reweigh(const AdjustedNetwork& adjusted, double huber_sigmas, AdjustOptions& adjust) {
+  const bool changed = WeighViews(adjusted.noise_px, adjusted.sigma_px, adjust);
+  adjust.huber_px = HuberFor_px(adjusted, adjust.relative_noise, huber_sigmas);
+  return changed;
 }
 
-AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const ScreenOptions& options,
-                                LeftOutSightings& set_aside) {
+}  // namespace
+
+double HuberFor_px(const AdjustedNetwork& adjusted, const std::vector<double>& relative_noise,
+                   double sigmas) {
+  // Perfect corners, as tests make them, have no residuals to take a scale from.
+  constexpr double kLeast_px = 1e-3;
+  if (sigmas == 0) return 0;
+  std::vector<double> distances_px;
+  for (std::size_t i = 0; i < adjusted.residuals_px.size(); ++i) {
+    const int view = adjusted.network.array.IndexOf(adjusted.network.sightings[i].view);
+    const double noise = relative_noise.empty() ? 1 : relative_noise[view];
+    for (const Eigen::Vector2d& residual : adjusted.residuals_px[i])
+      distances_px.push_back(residual.norm() / noise);
+  }
+  return std::max(kLeast_px, sigmas * RobustSigmaOf(std::move(distances_px)));
+}
+
+AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions& adjust,
+                                const ScreenOptions& options, LeftOutSightings& set_aside) {
   constexpr int kMostRounds = 3;
+  constexpr int kMostWeighings = 5;  // two or three do
   SetAsideBehind(network, set_aside);
   adjust.huber_px = options.huber_sigmas == 0 ? 0 : 1;
   AdjustedNetwork adjusted = AdjustMoving(std::move(network), adjust);
   for (int round = 0;; ++round) {
-    adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
+    Reweigh(adjusted, options.huber_sigmas, adjust);
     adjusted = AdjustMoving(adjusted.network, adjust);
-    if (!options.set_views_aside || round == kMostRounds) return adjusted;
+    if (!options.set_views_aside || round == kMostRounds) break;
     std::vector<BadSighting> bad = ScreenSightings(adjusted);
-    if (bad.empty()) return adjusted;
+    if (bad.empty()) break;
     std::reverse(bad.begin(), bad.end());  // the last first: indices stay right
     for (const BadSighting& sighting : bad) {
       auto& all = adjusted.network.sightings;
@@ -71,6 +90,9 @@ AdjustedNetwork AdjustAndScreen(Network network, AdjustOptions adjust, const Scr
       all.erase(all.begin() + sighting.sighting);
     }
   }
+  for (int i = 0; i < kMostWeighings && Reweigh(adjusted, options.huber_sigmas, adjust); ++i)
+    adjusted = AdjustMoving(adjusted.network, adjust);
+  return adjusted;
 }
 
 void SetAsideUnplaced(std::span<const CameraSightings> cameras, const Network& network,

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "calib/camera_tree.h"
 #include "calib/planar_pose.h"
 #include "calib/robust.h"
 
@@ -107,25 +108,12 @@ std::string NamesOf(const std::vector<Camera>& cameras, const std::vector<int>& 
   return names;
 }
 
-// Grows the tree from the first camera, each time by the best pair that leads out of it.
 Result<void> PlaceCameras(const std::vector<Edge>& edges, std::vector<Camera>& cameras) {
-  std::vector<bool> placed(cameras.size(), false);
-  placed[0] = true;
-  cameras[0].cam_from_stage = {};
-  for (;;) {
-    const auto next = std::find_if(edges.begin(), edges.end(), [&](const Edge& edge) {
-      return edge.pose.good_views > 0 && placed[edge.first] != placed[edge.second];
-    });
-    if (next == edges.end()) break;
-    const Rigid3d& second_from_first = next->pose.second_from_first;
-    if (placed[next->first])
-      cameras[next->second].cam_from_stage =
-          second_from_first * cameras[next->first].cam_from_stage;
-    else
-      cameras[next->first].cam_from_stage =
-          second_from_first.Inverse() * cameras[next->second].cam_from_stage;
-    placed[next->first] = placed[next->second] = true;
-  }
+  std::vector<CameraPair> pairs;
+  for (const Edge& edge : edges)
+    if (edge.pose.good_views > 0)
+      pairs.push_back({edge.first, edge.second, edge.pose.second_from_first});
+  const std::vector<bool> placed = PlaceByPairs(pairs, cameras);
   std::vector<int> linked, alone;
   for (int i = 0; i < static_cast<int>(cameras.size()); ++i)
     (placed[i] ? linked : alone).push_back(i);

@@ -7,12 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "calib/calibration_report.h"
-#include "calib/held_out.h"
 #include "calib/instants.h"
-#include "calib/lens_model.h"
 #include "calib/lens_solver.h"
-#include "calib/network_screening.h"
+#include "calib/network_calibration.h"
 #include "calib/planar_pose.h"
 #include "calib/pose_graph.h"
 
@@ -86,15 +83,22 @@ std::vector<PlacedSighting> PlaceSightings(const BoardSpec& board,
 
 void VisitOptions(RigOptions& options, OptionVisitor& visit) {
   visit("adjust_lenses", options.adjust_lenses,
-        "adjust lenses that were calibrated before along with the rest; false: hold them");
+        "adjust lenses that were calibrated before along with the rest; false: hold lenses that "
+        "were calibrated before");
   visit("free_time_offsets", options.free_time_offsets,
         "the cameras are not synchronous: estimate each one's offset from the moving board");
   visit("huber_sigmas", options.huber_sigmas,
         "corners off by more standard deviations count less; 0: plain least squares");
-  visit("set_views_aside", options.set_views_aside, "leave out views that do not fit the others");
+  visit("set_views_aside", options.set_views_aside,
+        "leave out views that do not fit the others; false: keep views that do not fit the others");
   visit("max_rms_px", options.max_rms_px, "not usable with larger residuals; px");
   visit("max_rigidity_mm", options.max_rigidity_mm,
         "not usable with larger errors of distances on held-out views; mm");
+  visit("max_held_focal_percent", options.max_held_focal_percent,
+        "not usable where the pictures contradict the focal length of a lens that is held by more; "
+        "percent");
+  visit("max_misfit", options.max_misfit,
+        "not usable where residuals are more times as large as neighbouring corners tell");
 }
 
 Result<StageResult<Calibration>> CalibrateRig(const BoardSpec& board,
@@ -111,28 +115,22 @@ Result<StageResult<Calibration>> CalibrateRig(const BoardSpec& board,
       LinkCameras(board, start->cameras, PlaceSightings(board, cameras, instants, *start));
   if (!network) return tl::unexpected(network.error());
   network->moving = options.free_time_offsets;
-
+  SetAsideUnplaced(cameras, *network, start->set_aside);
   AdjustOptions adjust;
-  adjust.lenses = start->freedoms;
+  adjust.lenses = std::move(start->freedoms);
   adjust.free_time_offsets = options.free_time_offsets;
-  LeftOutSightings set_aside = std::move(start->set_aside);
-  SetAsideUnplaced(cameras, *network, set_aside);
-  AdjustedNetwork adjusted = AdjustAndScreen(
-      *std::move(network), adjust, {options.huber_sigmas, options.set_views_aside}, set_aside);
-  adjust.huber_px = HuberFor_px(adjusted.residuals_px, options.huber_sigmas);
-  if (lens_options.simplify)
-    adjusted = SimplifyLenses(std::move(adjusted), lens_options, adjust, start->models);
-  Calibration calibration = MakeCalibration(cameras, adjusted, set_aside);
-  if (!options.free_time_offsets)
-    calibration.held_out = HeldOutRigidity(adjusted.network, adjust, adjusted.sigma_px);
-  StageReport report =
-      DescribeCalibration("calibrate rig", calibration,
-                          {.max_rms_px = options.max_rms_px,
-                           .max_focal_sigma_percent = lens_options.max_focal_sigma_percent,
-                           .max_rigidity_mm = options.max_rigidity_mm});
-  report.warnings.insert(report.warnings.begin(), start->warnings.begin(), start->warnings.end());
-  report.options = EchoOptions(options);
-  return StageResult<Calibration>{std::move(calibration), std::move(report)};
+  StageResult<Calibration> rig =
+      CalibrateNetwork("calibrate rig", cameras,
+                       {*std::move(network), std::move(adjust), std::move(start->models),
+                        std::move(start->set_aside), std::move(start->warnings)},
+                       lens_options, {options.huber_sigmas, options.set_views_aside},
+                       {.max_rms_px = options.max_rms_px,
+                        .max_focal_sigma_percent = lens_options.max_focal_sigma_percent,
+                        .max_rigidity_mm = options.max_rigidity_mm,
+                        .max_held_focal_percent = options.max_held_focal_percent,
+                        .max_misfit = options.max_misfit});
+  rig.report.options = EchoOptions(options);
+  return rig;
 }
 
 }  // namespace articap

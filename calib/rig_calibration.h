@@ -22,6 +22,8 @@ struct RigOptions {
   // The array is not usable beyond these.
   double max_rms_px = 1;
   double max_rigidity_mm = 1;
+  double max_held_focal_percent = 2;
+  double max_misfit = 3;
 };
 void VisitOptions(RigOptions& options, OptionVisitor& visit);
 

@@ -29,13 +29,23 @@ double RoughTolerance_px(const Camera& camera) {
 void HuberSums::Add(double distance_px, double huber_px) {
   const double psi = huber_px > 0 ? std::min(distance_px, huber_px) : distance_px;
   squares_px2 += psi * psi;
-  weights += distance_px > 0 ? psi / distance_px : 1;
+  const double weight = distance_px > 0 ? psi / distance_px : 1;
+  weights += weight;
+  slopes += psi < distance_px ? weight / 2 : 1;
   ++count;
 }
 
-double HuberSums::Sigma_px(int degrees_of_freedom) const {
-  if (degrees_of_freedom <= 0) return NAN;
-  return std::sqrt(squares_px2 / degrees_of_freedom) / mean_weight();
+HuberSums& HuberSums::operator+=(const HuberSums& other) {
+  squares_px2 += other.squares_px2;
+  weights += other.weights;
+  slopes += other.slopes;
+  count += other.count;
+  return *this;
+}
+
+double HuberSums::Sigma_px(double degrees_of_freedom) const {
+  if (!(degrees_of_freedom > 0)) return NAN;
+  return std::sqrt(squares_px2 / degrees_of_freedom) * count / slopes;
 }
 
 }  // namespace articap

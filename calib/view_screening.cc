@@ -22,15 +22,22 @@ constexpr std::size_t kFewestOfView = 5;
 struct Usual {
   double median_px = 0;
   double limit_px = 0;
+  double sigma_px = 0;  // of one coordinate of a corner
 };
 
-Usual UsualOf(const std::vector<double>& rms_px) {
+Usual UsualOf(const std::vector<double>& rms_px, const ResidualLists& residuals_px) {
   const double median = UpperMedianOf(rms_px);
   std::vector<double> deviations;
   for (double rms : rms_px) deviations.push_back(std::abs(rms - median));
   const double spread = 1.4826 * UpperMedianOf(std::move(deviations));
-  return {median, std::max({kGood_px, 3 * median, median + 6 * spread})};
+  return {median, std::max({kGood_px, 3 * median, median + 6 * spread}),
+          RobustSigmaOf(residuals_px)};
 }
+
+struct ViewResiduals {
+  std::vector<double> rms_px;
+  ResidualLists residuals_px;
+};
 
 std::vector<double> DistancesOf(const ResidualLists& residuals_px) {
   std::vector<double> distances;
@@ -51,25 +58,28 @@ double RobustSigmaOf(const ResidualLists& residuals_px) {
 
 std::vector<BadSighting> ScreenSightings(const AdjustedNetwork& adjusted) {
   const auto& sightings = adjusted.network.sightings;
-  const double sigma_px = RobustSigmaOf(adjusted.residuals_px);
-  std::map<std::pair<int, int>, std::vector<double>> rms_of_views_px;
+  const CameraArray& array = adjusted.network.array;
+  std::map<int, ViewResiduals> of_views;
   std::vector<double> all_px;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     all_px.push_back(RmsOf(adjusted.residuals_px[i]));
-    rms_of_views_px[{sightings[i].view.camera, sightings[i].view.mirror}].push_back(all_px.back());
+    ViewResiduals& view = of_views[array.IndexOf(sightings[i].view)];
+    view.rms_px.push_back(all_px.back());
+    view.residuals_px.push_back(adjusted.residuals_px[i]);
   }
-  std::map<std::pair<int, int>, Usual> usual_of_views;
-  for (const auto& [view, rms_px] : rms_of_views_px)
-    usual_of_views[view] = UsualOf(rms_px.size() < kFewestOfView ? all_px : rms_px);
+  std::map<int, Usual> usual_of_views;
+  for (const auto& [view, own] : of_views)
+    usual_of_views[view] = own.rms_px.size() < kFewestOfView
+                               ? UsualOf(all_px, adjusted.residuals_px)
+                               : UsualOf(own.rms_px, own.residuals_px);
   std::vector<BadSighting> bad;
   for (int i = 0; i < static_cast<int>(sightings.size()); ++i) {
-    const View& view = sightings[i].view;
-    const Usual& usual = usual_of_views.at({view.camera, view.mirror});
+    const Usual& usual = usual_of_views.at(array.IndexOf(sightings[i].view));
     if (!(all_px[i] <= usual.limit_px))
-      bad.push_back(
-          {i, fmt::format(
-                  "{:.2f} px RMS where the others have {:.2f}: {}", all_px[i], usual.median_px,
-                  DisplacedCorners(sightings[i].corners, adjusted.residuals_px[i], sigma_px))});
+      bad.push_back({i, fmt::format("{:.2f} px RMS where the others have {:.2f}: {}", all_px[i],
+                                    usual.median_px,
+                                    DisplacedCorners(sightings[i].corners, adjusted.residuals_px[i],
+                                                     usual.sigma_px))});
   }
   return bad;
 }

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "calib/calibration_report.h"
 #include "calib/instants.h"
 #include "calib/robust.h"
+#include "calib/view_noise.h"
 #include "calib/wand_network.h"
 #include "calib/wand_start.h"
 #include "core/triangulation.h"
@@ -19,7 +20,6 @@
 namespace articap {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kFewestPictures = 30;
 
 // Pictures that show two markers, no more and no fewer.
@@ -73,20 +73,27 @@ AdjustOptions OptionsFor(const std::vector<WandVideo>& videos, const WandOptions
   return adjust;
 }
 
-double MarkerSigma_px(const AdjustedWand& adjusted) {
+// Of a view of the usual noise.
+double MarkerSigma_px(const AdjustedWand& adjusted, const AdjustOptions& adjust) {
   std::vector<double> distances_px;
-  for (const auto& ends : adjusted.residuals_px)
-    for (const Eigen::Vector2d& residual : ends) distances_px.push_back(residual.norm());
+  for (std::size_t i = 0; i < adjusted.residuals_px.size(); ++i)
+    for (const Eigen::Vector2d& residual : adjusted.residuals_px[i])
+      distances_px.push_back(residual.norm() /
+                             adjust.relative_noise[adjusted.network.sightings[i].camera]);
   return RobustSigmaOf(std::move(distances_px));
 }
 
 // Pictures whose markers are far from where they should be: reflections, other blobs.
-void RemoveOutliers(const AdjustedWand& adjusted, double limit_px, WandNetwork& network) {
+void RemoveOutliers(const AdjustedWand& adjusted, const AdjustOptions& adjust,
+                    WandNetwork& network) {
   std::vector<WandSighting> kept;
-  for (std::size_t i = 0; i < network.sightings.size(); ++i)
+  for (std::size_t i = 0; i < network.sightings.size(); ++i) {
+    const double noise_px = adjust.relative_noise[network.sightings[i].camera] * network.sigma_px;
+    const double limit_px = std::max(0.5, 10 * noise_px);
     if (adjusted.residuals_px[i][0].norm() < limit_px &&
         adjusted.residuals_px[i][1].norm() < limit_px)
       kept.push_back(network.sightings[i]);
+  }
   network.sightings = std::move(kept);
 }
 
@@ -104,10 +111,11 @@ Result<AdjustedWand> AdjustInRounds(WandNetwork network, AdjustOptions adjust,
           "the bright spots its markers, were all cameras recording at the same time?");
     adjusted = AdjustWand(network, adjust);
     network = adjusted.network;
-    network.sigma_px = std::max(1e-3, MarkerSigma_px(adjusted));
+    WeighViews(adjusted.noise_px, adjusted.sigma_px, adjust);
+    network.sigma_px = std::max(1e-3, MarkerSigma_px(adjusted, adjust));
     adjust.huber_px = options.huber_sigmas * network.sigma_px;
     if (round >= kFirstToRemove && round + 1 < kRounds) {
-      RemoveOutliers(adjusted, std::max(0.5, 10 * network.sigma_px), network);
+      RemoveOutliers(adjusted, adjust, network);
       KeepSharedInstants(network);
     }
   }
@@ -116,19 +124,21 @@ Result<AdjustedWand> AdjustInRounds(WandNetwork network, AdjustOptions adjust,
 
 // Of each instant the distance between its ends, each by the rays of the cameras alone, which are
 // first brought to the instant by the motion found.
-std::vector<double> LengthsOf_mm(const WandNetwork& network) {
+std::vector<double> LengthsOf_mm(const WandNetwork& network, const std::vector<double>& noise_px) {
+  const std::vector<double> times_s = InstantTimes_s(network);
   std::map<int, std::array<std::vector<Sight>, 2>> sights;
   for (const WandSighting& sighting : network.sightings) {
     const WandInstant& instant = network.instants[sighting.instant];
     const double after_s =
         sighting.time_s + network.array.cameras[sighting.camera].time_offset_s - instant.time_s;
-    const auto moved = EndsAfter(network, sighting.instant, after_s);
+    const auto moved = EndsAfter(network, times_s, sighting.instant, after_s);
     for (int end = 0; end < 2; ++end) {
       const View view{sighting.camera, -1};
       const auto now = Project(network.array, view, instant.ends_mm[end]);
       const auto then = Project(network.array, view, moved[end]);
       if (now && then)
-        sights[sighting.instant][end].push_back({view, sighting.ends_px[end] + *now - *then});
+        sights[sighting.instant][end].push_back(
+            {view, sighting.ends_px[end] + *now - *then, noise_px[sighting.camera]});
     }
   }
   std::vector<double> lengths_mm;
@@ -144,13 +154,13 @@ WandCalibration Summarize(const AdjustedWand& adjusted) {
   WandCalibration result;
   result.array = adjusted.network.array;
   result.sigma_px = adjusted.sigma_px;
+  result.noise_px = adjusted.noise_px;
   result.parameters = adjusted.parameters;
   result.covariance = adjusted.covariance;
-  double squares = 0;
-  for (const auto& ends : adjusted.residuals_px)
-    squares += ends[0].squaredNorm() + ends[1].squaredNorm();
-  result.rms_px = std::sqrt(squares / static_cast<double>(2 * adjusted.residuals_px.size()));
-  result.lengths_mm = LengthsOf_mm(adjusted.network);
+  DistanceRms rms;
+  for (const auto& ends : adjusted.residuals_px) rms.Add(ends);
+  result.rms_px = rms.px();
+  result.lengths_mm = LengthsOf_mm(adjusted.network, adjusted.noise_px);
   result.instants = static_cast<int>(result.lengths_mm.size());
   const double count = static_cast<double>(result.lengths_mm.size());
   result.mean_length_mm =
@@ -216,16 +226,11 @@ StageReport Describe(const WandCalibration& wand, const WandOptions& options) {
                     {"instants", static_cast<double>(wand.instants)},
                     {"mean_length_mm", wand.mean_length_mm},
                     {"wand_score", wand.wand_score}};
-  ReportTable table = {"camera",
-                       {"x_mm", "y_mm", "z_mm", "sigma_mm", "sigma_deg", "fx_px", "time_offset_ms",
-                        "time_offset_sigma_ms"},
-                       {}};
-  for (const Camera& camera : wand.array.cameras) {
-    const Eigen::Vector3d at = camera.cam_from_stage.Inverse().translation_mm;
-    table.rows.push_back({camera.name,
-                          {at.x(), at.y(), at.z(), camera.sigmas.translation_mm.norm(),
-                           camera.sigmas.rotation_rad.norm() / kDegree, camera.lens.fx_px,
-                           1e3 * camera.time_offset_s, 1e3 * camera.sigmas.time_offset_s}});
+  ReportTable table = CameraTable(wand.array);
+  table.columns.insert(table.columns.end(), {"fx_px", "noise_px"});
+  for (std::size_t i = 0; i < wand.array.cameras.size(); ++i) {
+    std::vector<double>& values = table.rows[i].values;
+    values.insert(values.end(), {wand.array.cameras[i].lens.fx_px, wand.noise_px[i]});
   }
   report.tables = {std::move(table)};
   report.options = EchoOptions(options);
@@ -242,7 +247,8 @@ void VisitOptions(WandOptions& options, OptionVisitor& visit) {
   visit("adjust_radial", options.adjust_radial,
         "the radial distortion (k1, k2) is only roughly known");
   visit("free_time_offsets", options.free_time_offsets,
-        "the cameras are not synchronous: estimate each one's offset");
+        "the cameras are not synchronous: estimate each one's offset; false: the cameras are "
+        "synchronous");
   visit("huber_sigmas", options.huber_sigmas, "markers off by more standard deviations count less");
   visit("max_rms_px", options.max_rms_px, "not usable with larger residuals; px");
   visit("max_wand_score", options.max_wand_score,

@@ -48,7 +48,9 @@ void VisitOptions(WandOptions& options, OptionVisitor& visit);
 
 struct WandCalibration {
   CameraArray array;
+  // Standard deviation of one coordinate of a marker: of all cameras together, and of each.
   double sigma_px = 0;
+  std::vector<double> noise_px;
   double rms_px = 0;
   int instants = 0;
   // Of each instant that two cameras or more show, from their rays alone: the distance between the

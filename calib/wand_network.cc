@@ -9,16 +9,10 @@
 
 #include "calib/camera_blocks.h"
 #include "calib/cost_functions/corner_cost.h"
-#include "calib/robust.h"
+#include "calib/view_noise.h"
 
 namespace articap {
 namespace {
-
-std::vector<double> TimesOf(const WandNetwork& network) {
-  std::vector<double> times_s;
-  for (const WandInstant& at : network.instants) times_s.push_back(at.time_s);
-  return times_s;
-}
 
 PointMotion MotionOfEnd(const WandNetwork& network, const std::vector<double>& times_s, int instant,
                         int end) {
@@ -44,7 +38,7 @@ class WandProblem {
       for (int end = 0; end < 2; ++end)
         Eigen::Map<Eigen::Vector3d>{ends.data() + 3 * end} = instant.ends_mm[end];
     }
-    const std::vector<double> times_s = TimesOf(network);
+    const std::vector<double> times_s = InstantTimes_s(network);
     for (const WandSighting& sighting : network.sightings) AddSighting(sighting, times_s);
     for (EndsBlock& ends : ends_) {
       if (!problem_.HasParameterBlock(ends.data())) continue;
@@ -52,6 +46,7 @@ class WandProblem {
       problem_.AddResidualBlock(
           RodLengthCost{network.length_mm, network.length_sigma_mm / network.sigma_px}.Create(),
           nullptr, ends.data());
+      row_views_.push_back(-1);
     }
     cameras_.Constrain(problem_);
   }
@@ -70,7 +65,9 @@ class WandProblem {
     return network;
   }
 
-  Eigen::MatrixXd Covariance() { return CovarianceOfCameras(problem_, cameras_, seen_); }
+  ArrowCovariance Covariance() {
+    return CovarianceOfCameras(problem_, cameras_, seen_, row_views_);
+  }
 
   const std::vector<CameraParameter>& parameters() const { return cameras_.parameters(); }
   int num_free() const { return static_cast<int>(cameras_.parameters().size() + 6 * seen_.size()); }
@@ -80,11 +77,12 @@ class WandProblem {
     for (int end = 0; end < 2; ++end) {
       PointMotion motion = MotionOfEnd(network_, times_s, sighting.instant, end);
       motion.shift_s = sighting.time_s - times_s[sighting.instant];
-      problem_.AddResidualBlock(
-          RodEndCost{end, sighting.ends_px[end], motion}.Create(),
-          options_.huber_px > 0 ? new ceres::HuberLoss(options_.huber_px) : nullptr,
-          cameras_.lens(sighting.camera), cameras_.pose(sighting.camera),
-          cameras_.time_offset(sighting.camera), ends_[sighting.instant].data());
+      problem_.AddResidualBlock(RodEndCost{end, sighting.ends_px[end], motion}.Create(),
+                                LossOf(options_, sighting.camera), cameras_.lens(sighting.camera),
+                                cameras_.pose(sighting.camera),
+                                cameras_.time_offset(sighting.camera),
+                                ends_[sighting.instant].data());
+      row_views_.insert(row_views_.end(), 2, sighting.camera);
     }
   }
 
@@ -93,16 +91,18 @@ class WandProblem {
   CameraBlocks cameras_;
   std::vector<EndsBlock> ends_;
   std::vector<double*> seen_;  // those that a sighting shows
+  std::vector<int> row_views_;
   ceres::Problem problem_;
 };
 
 std::vector<std::array<Eigen::Vector2d, 2>> ResidualsOf(const WandNetwork& network) {
+  const std::vector<double> times_s = InstantTimes_s(network);
   std::vector<std::array<Eigen::Vector2d, 2>> residuals;
   for (const WandSighting& sighting : network.sightings) {
     const Camera& camera = network.array.cameras[sighting.camera];
     const double after_s =
         sighting.time_s + camera.time_offset_s - network.instants[sighting.instant].time_s;
-    const auto ends = EndsAfter(network, sighting.instant, after_s);
+    const auto ends = EndsAfter(network, times_s, sighting.instant, after_s);
     std::array<Eigen::Vector2d, 2>& of_ends = residuals.emplace_back();
     for (int end = 0; end < 2; ++end) {
       const auto expected = Project(network.array, {sighting.camera, -1}, ends[end]);
@@ -114,15 +114,16 @@ std::vector<std::array<Eigen::Vector2d, 2>> ResidualsOf(const WandNetwork& netwo
 }
 
 // Of the ends and, in the same unit, of the lengths.
-HuberSums SumsOf(const AdjustedWand& adjusted, double huber_px) {
-  HuberSums sums;
-  for (const auto& ends : adjusted.residuals_px)
-    for (const Eigen::Vector2d& residual : ends) sums.Add(residual.norm(), huber_px);
+NoiseSums SumsOf(const AdjustedWand& adjusted, const AdjustOptions& options,
+                 const std::vector<double>& redundancies) {
+  NoiseSums sums(options, redundancies);
   const WandNetwork& network = adjusted.network;
+  for (std::size_t i = 0; i < network.sightings.size(); ++i)
+    for (const Eigen::Vector2d& residual : adjusted.residuals_px[i])
+      sums.Add(network.sightings[i].camera, residual);
   for (const WandInstant& instant : network.instants)
-    sums.Add(std::abs((instant.ends_mm[0] - instant.ends_mm[1]).norm() - network.length_mm) *
-                 network.sigma_px / network.length_sigma_mm,
-             0);
+    sums.AddOther(((instant.ends_mm[0] - instant.ends_mm[1]).norm() - network.length_mm) *
+                  network.sigma_px / network.length_sigma_mm);
   return sums;
 }
 
@@ -141,9 +142,16 @@ void AddScaleError(const WandNetwork& network, const std::vector<CameraParameter
 
 }  // namespace
 
-std::array<Eigen::Vector3d, 2> EndsAfter(const WandNetwork& network, int instant, double after_s) {
+std::vector<double> InstantTimes_s(const WandNetwork& network) {
+  std::vector<double> times_s;
+  for (const WandInstant& at : network.instants) times_s.push_back(at.time_s);
+  return times_s;
+}
+
+std::array<Eigen::Vector3d, 2> EndsAfter(const WandNetwork& network,
+                                         const std::vector<double>& times_s, int instant,
+                                         double after_s) {
   std::array<Eigen::Vector3d, 2> ends = network.instants[instant].ends_mm;
-  const std::vector<double> times_s = TimesOf(network);
   for (int end = 0; end < 2; ++end)
     ends[end] += MotionOfEnd(network, times_s, instant, end).After(after_s);
   return ends;
@@ -156,11 +164,13 @@ AdjustedWand AdjustWand(const WandNetwork& network, const AdjustOptions& options
   adjusted.network = problem.Solution();
   adjusted.converged = summary.termination_type == ceres::CONVERGENCE;
   adjusted.residuals_px = ResidualsOf(adjusted.network);
-  const HuberSums sums = SumsOf(adjusted, options.huber_px);
-  adjusted.sigma_px = sums.Sigma_px(summary.num_residuals - problem.num_free());
+  const ArrowCovariance covariance = problem.Covariance();
+  const NoiseSums sums = SumsOf(adjusted, options, covariance.redundancies);
+  adjusted.noise_px = sums.NoiseOfViews_px();
+  adjusted.sigma_px = sums.PooledNoise_px();
   adjusted.parameters = problem.parameters();
   adjusted.covariance =
-      adjusted.sigma_px * adjusted.sigma_px * sums.mean_weight() * problem.Covariance();
+      sums.VarianceFactor_px2(summary.num_residuals - problem.num_free()) * covariance.cameras;
   AddScaleError(adjusted.network, adjusted.parameters, adjusted.covariance);
   FillSigmas(adjusted.parameters, adjusted.covariance, adjusted.network.array);
   return adjusted;

@@ -32,13 +32,17 @@ struct WandNetwork {
   double length_mm = 0;
   // How far it may be off: all the time alike, and from one instant to the next.
   double length_sigma_mm = 0;
-  double sigma_px = 0.1;  // of one coordinate of a marker, to weigh pixels against the length
+  // Of one coordinate of a marker in a view of the usual noise, to weigh pixels against the length.
+  double sigma_px = 0.1;
 };
 
 struct AdjustedWand {
   WandNetwork network;
   bool converged = false;
-  double sigma_px = 0;  // of one coordinate of a marker, without outliers (HuberSums)
+  // Standard deviation of one coordinate of a marker, without outliers (HuberSums): of all cameras
+  // together, and of each (calib/view_noise.h).
+  double sigma_px = 0;
+  std::vector<double> noise_px;
   std::vector<CameraParameter> parameters;
   Eigen::MatrixXd covariance;
   // seen - expected, px; the two ends of each sighting.
@@ -48,7 +52,11 @@ struct AdjustedWand {
 // Bundle adjustment of the cameras and of the wand's ends, whose distance is known.
 AdjustedWand AdjustWand(const WandNetwork& network, const AdjustOptions& options);
 
-// How the ends move about an instant, by the instants next to it.
-std::array<Eigen::Vector3d, 2> EndsAfter(const WandNetwork& network, int instant, double after_s);
+std::vector<double> InstantTimes_s(const WandNetwork& network);
+
+// How the ends move about an instant, by the instants next to it; `times_s` of all of them.
+std::array<Eigen::Vector3d, 2> EndsAfter(const WandNetwork& network,
+                                         const std::vector<double>& times_s, int instant,
+                                         double after_s);
 
 }  // namespace articap

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "calib/camera_tree.h"
 #include "calib/epipolar.h"
 #include "calib/instants.h"
 #include "calib/robust.h"
@@ -93,9 +94,7 @@ class WandStart {
 
  private:
   struct Edge {
-    int first = 0;
-    int second = 0;
-    Rigid3d second_from_first;
+    CameraPair pair;
     int views = 0;
   };
 
@@ -163,7 +162,7 @@ class WandStart {
         if (!pose) continue;
         if (const auto scale = ScaleOf(views, *pose)) {
           pose->second_from_first.translation_mm *= *scale;
-          edges_.push_back({first, second, pose->second_from_first, pose->num_inliers});
+          edges_.push_back({{first, second, pose->second_from_first}, pose->num_inliers});
         }
       }
     std::stable_sort(edges_.begin(), edges_.end(),
@@ -194,21 +193,9 @@ class WandStart {
   }
 
   Result<void> PlaceCameras() {
-    std::vector<bool> placed(videos_.size(), false);
-    placed[0] = true;
-    for (;;) {
-      const auto next = std::find_if(edges_.begin(), edges_.end(), [&](const Edge& edge) {
-        return placed[edge.first] != placed[edge.second];
-      });
-      if (next == edges_.end()) break;
-      Camera& first = array_.cameras[next->first];
-      Camera& second = array_.cameras[next->second];
-      if (placed[next->first])
-        second.cam_from_stage = next->second_from_first * first.cam_from_stage;
-      else
-        first.cam_from_stage = next->second_from_first.Inverse() * second.cam_from_stage;
-      placed[next->first] = placed[next->second] = true;
-    }
+    std::vector<CameraPair> pairs;
+    for (const Edge& edge : edges_) pairs.push_back(edge.pair);
+    const std::vector<bool> placed = PlaceByPairs(pairs, array_.cameras);
     for (std::size_t i = 0; i < placed.size(); ++i)
       if (!placed[i])
         return Fail(fmt::format(

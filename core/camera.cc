@@ -95,6 +95,10 @@ std::vector<View> CameraArray::views() const {
   return views;
 }
 
+int CameraArray::IndexOf(const View& view) const {
+  return view.mirror < 0 ? view.camera : static_cast<int>(cameras.size()) + view.mirror;
+}
+
 std::string CameraArray::NameOf(const View& view) const {
   const std::string& camera = cameras.at(view.camera).name;
   return view.mirror < 0 ? camera : camera + "/" + mirrors.at(view.mirror).name;

@@ -122,6 +122,8 @@ struct CameraArray {
 
   // Every camera directly, then every mirror.
   std::vector<View> views() const;
+  // Where a view stands among them.
+  int IndexOf(const View& view) const;
   // "left", or "left/mirror".
   std::string NameOf(const View& view) const;
 };

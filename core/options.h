@@ -19,6 +19,7 @@ namespace articap {
 class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;
+  // "hold the lens; false: adjust the lens" where the contrary has words of its own.
   virtual void operator()(const char* name, bool& value, const char* help) = 0;
   virtual void operator()(const char* name, int& value, const char* help) = 0;
   virtual void operator()(const char* name, double& value, const char* help) = 0;

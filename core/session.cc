@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/check.h"
 #include "core/natural_order.h"
 
 namespace articap {
@@ -81,6 +82,14 @@ std::vector<TakeFile> StoredTake::VideoOf(std::string_view camera) const {
   std::vector<TakeFile> files = FilesOf(FileRole::kVideo);
   std::erase_if(files, [&](const TakeFile& file) { return file.camera != camera; });
   return files;
+}
+
+TakeFile StoredTake::WholeVideoOf(std::string_view camera) const {
+  const std::vector<TakeFile> parts = VideoOf(camera);
+  ARTICAP_CHECK(!parts.empty());
+  TakeFile whole = parts[0];
+  for (std::size_t i = 1; i < parts.size(); ++i) whole.frames += parts[i].frames;
+  return whole;
 }
 
 double StoredTake::DurationOf_s(const TakeFile& file) const {

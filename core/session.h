@@ -112,8 +112,10 @@ struct StoredTake {
   std::vector<TakeFile> FilesOf(FileRole role) const;
   // The names of the cameras, in the order of their files.
   std::vector<std::string> cameras() const;
-  // A camera's video, in the order of its parts.
+  // A camera's video, in the order of its parts, and as if it were one file: the first of them,
+  // with the frames of all.
   std::vector<TakeFile> VideoOf(std::string_view camera) const;
+  TakeFile WholeVideoOf(std::string_view camera) const;
   // Seconds of the file that belong to the take.
   double DurationOf_s(const TakeFile& file) const;
 };

@@ -49,8 +49,9 @@ std::optional<Linearized> Linearize(const CameraArray& array, const std::vector<
       jacobian.col(axis) = (*ahead - *behind) / (2 * kStep_mm);
     }
     const Eigen::Vector2d residual = sight.point_px - *expected;
-    result.normal += jacobian.transpose() * jacobian;
-    result.gradient += jacobian.transpose() * residual;
+    const double weight = 1 / (sight.sigma_px * sight.sigma_px);
+    result.normal += weight * jacobian.transpose() * jacobian;
+    result.gradient += weight * jacobian.transpose() * residual;
     result.sum_of_squares += residual.squaredNorm();
   }
   return result;
@@ -90,7 +91,7 @@ std::optional<TriangulatedPoint> Triangulate(const CameraArray& array,
     const Eigen::Vector3d change = solver.solve(linearized->gradient);
     result.point_in_stage_mm += change;
     result.rms_px = std::sqrt(linearized->sum_of_squares / static_cast<double>(sights.size()));
-    result.covariance_per_px2 = solver.solve(Eigen::Matrix3d::Identity());
+    result.covariance_mm2 = solver.solve(Eigen::Matrix3d::Identity());
     if (change.norm() < kStill_mm) return result;
   }
   return std::nullopt;

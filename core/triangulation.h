@@ -23,19 +23,20 @@ std::optional<StageRay> RayOf(const CameraArray& array, const View& view,
 struct Sight {
   View view;
   Eigen::Vector2d point_px = Eigen::Vector2d::Zero();
+  double sigma_px = 1;  // standard deviation of one coordinate
 };
 
 struct TriangulatedPoint {
   Eigen::Vector3d point_in_stage_mm = Eigen::Vector3d::Zero();
-  // For a standard deviation of 1 px of each coordinate of each sight; mm^2.
-  Eigen::Matrix3d covariance_per_px2 = Eigen::Matrix3d::Identity();
+  // From the sights' sigmas.
+  Eigen::Matrix3d covariance_mm2 = Eigen::Matrix3d::Identity();
   double rms_px = 0;
 };
 
-// The point that minimises the squared distances, px, to where it was seen: from the point nearest
-// to all rays, by Gauss and Newton's method. Nothing from fewer than two sights, parallel rays, or
-// a point that one of the views could not show.
-// R. Hartley, P. Sturm, "Triangulation", CVIU 68(2), 1997.
+// The point that minimises the squared distances, over their sigmas, to where it was seen: from the
+// point nearest to all rays, by Gauss and Newton's method. Nothing from fewer than two sights,
+// parallel rays, or a point that one of the views could not show. R. Hartley, P. Sturm,
+// "Triangulation", CVIU 68(2), 1997.
 std::optional<TriangulatedPoint> Triangulate(const CameraArray& array,
                                              const std::vector<Sight>& sights);
 

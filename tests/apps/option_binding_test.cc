@@ -8,9 +8,11 @@
 namespace articap {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 enum class Metric : std::uint8_t { kSum, kSquared };
 
@@ -72,6 +74,36 @@ TEST(OptionBinding, ReadsEveryTypeOfFlag) {
   EXPECT_THAT(outcome.options.head_markers, ElementsAre("A", "B", "C"));
   EXPECT_EQ(outcome.options.rate_hz, 59.94);
   EXPECT_EQ(outcome.options.metric, Metric::kSquared);
+}
+
+struct Switches {
+  bool hold = true;
+  bool smooth = true;
+  bool mirrored = false;
+};
+
+void VisitOptions(Switches& options, OptionVisitor& visit) {
+  visit("hold", options.hold, "hold the lens; false: adjust the lens");
+  visit("smooth", options.smooth, "smooth the movement");
+  visit("mirrored", options.mirrored, "the picture is mirrored");
+}
+
+TEST(OptionBinding, TheHelpSaysWhatTheOtherWayOfASwitchDoes) {
+  CLI::App app;
+  Switches options;
+  FlagRegistrar registrar(app, "", "switches");
+  VisitOptions(options, registrar);
+  const std::string help = app.help();
+  EXPECT_THAT(help, ContainsRegex("--no-hold +adjust the lens\n"));
+  EXPECT_THAT(help, ContainsRegex("--no-smooth +do not smooth the movement\n"));
+  EXPECT_THAT(help, ContainsRegex("--mirrored +the picture is mirrored\n"));
+  EXPECT_THAT(help, Not(HasSubstr("--no-mirrored")));
+  EXPECT_THAT(help, Not(HasSubstr("--hold")));
+}
+
+TEST(OptionBinding, BothWaysOfASwitchAtOnceAreRefused) {
+  EXPECT_THAT(Read({"--refine", "--no-refine"}).errors,
+              ElementsAre("--refine and --no-refine contradict one another; give one of them"));
 }
 
 TEST(OptionBinding, ReadsEveryTypeFromToml) {

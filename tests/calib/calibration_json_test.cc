@@ -61,6 +61,7 @@ TEST(CalibrationJsonTest, HoldsTheLensAndItsSigmas) {
   EXPECT_TRUE(json["held_out"]["rigidity_mm"].is_null()) << "one camera says nothing of distances";
   const Json& written = json["cameras"][0];
   EXPECT_EQ(written["width"], 640);
+  EXPECT_EQ(written["noise_px"], calibration.noise_px[0]);
   EXPECT_EQ(written["lens"]["fx_px"], camera.lens.fx_px);
   EXPECT_EQ(written["lens"]["k2"], camera.lens.distortion[Lens::kK2]);
   EXPECT_EQ(written["lens_sigmas"]["fx_px"], camera.sigmas.fx_px);

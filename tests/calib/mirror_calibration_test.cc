@@ -106,6 +106,27 @@ TEST(MirrorCalibrationTest, ViewsTakenForOneAnotherAreExchanged) {
   EXPECT_NEAR(found->output.sigma_px, 0.1, 0.01);
 }
 
+// Turned about the middle of what it shows, halfway through the pictures.
+TEST(MirrorCalibrationTest, AMirrorThatMovedBetweenPicturesIsNotUsable) {
+  for (double angle_rad : {0.02, 0.05}) {
+    const NetworkScene scene = MirrorScene(6, 20);
+    NetworkScene moved = scene;
+    Mirror& mirror = moved.array.mirrors[0];
+    mirror.normal_in_stage =
+        Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitY()) * mirror.normal_in_stage;
+    mirror.distance_mm = mirror.normal_in_stage.dot(Eigen::Vector3d{150, 0, 800});
+    CameraSightings seen = SeeBoards(scene, 0.05, 6)[0];
+    std::erase_if(seen.sightings, [](const BoardSighting& s) { return s.frame >= 10; });
+    const CameraSightings later = SeeBoards(moved, 0.05, 6)[0];
+    for (const BoardSighting& sighting : later.sightings)
+      if (sighting.frame >= 10) seen.sightings.push_back(sighting);
+    const auto found = CalibrateMirror(scene.board, seen, {}, {});
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_FALSE(found->report.IsUsable()) << found->report.verdict;
+    EXPECT_THAT(found->report.verdict, HasSubstr("did it move between pictures")) << angle_rad;
+  }
+}
+
 TEST(MirrorCalibrationTest, TwoMirrorsAreToldApart) {
   NetworkScene scene = MirrorScene(2, 15);
   Mirror left = scene.array.mirrors[0];

@@ -77,36 +77,77 @@ Eigen::VectorXd ErrorsOf(const Calibration& calibration, const CameraArray& trut
   return errors;
 }
 
-struct RigStatistics {
-  double mahalanobis2 = 0;  // summed over seeds
-  int degrees_of_freedom = 0;
-  double largest_sigmas = 0;
-  double normalized2 = 0;           // sum of the parameters' squared errors over their variances
-  double normalized2_variance = 0;  // of that sum: parameters of one rig are correlated
-  double rigidity2 = 0, expected_rigidity2 = 0;
+// Squared errors of parameters over their variances, summed over parameters and seeds.
+struct NormalizedErrors {
+  double sum = 0;
+  double sum_variance = 0;  // parameters of one rig are correlated
+  int count = 0;
 
-  double pooled_variance() const { return normalized2 / degrees_of_freedom; }
-  double pooled_variance_sigma() const {
-    return std::sqrt(normalized2_variance) / degrees_of_freedom;
+  void Add(const Eigen::VectorXd& errors, const Eigen::MatrixXd& covariance) {
+    sum += (errors.array().square() / covariance.diagonal().array()).sum();
+    // The squares of standard Gaussians with correlations r have covariances 2 r^2.
+    const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+    sum_variance += 2 * correlation.squaredNorm();
+    count += static_cast<int>(errors.size());
   }
+
+  double variance() const { return sum / count; }
+  double variance_sigma() const { return std::sqrt(sum_variance) / count; }
 };
 
-// The squares of standard Gaussians with correlations r have covariances 2 r^2.
-double VarianceOfSquares(const Eigen::MatrixXd& covariance) {
-  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
-  return 2 * correlation.squaredNorm();
+// What is said of the noise of one camera's corners.
+struct NoiseFound {
+  double squares = 0;  // of what was found over the truth, summed over seeds
+  int coordinates = 0;
+};
+
+struct RigStatistics {
+  explicit RigStatistics(std::size_t num_cameras) : cameras(num_cameras), noise(num_cameras) {}
+
+  double mahalanobis2 = 0;  // summed over seeds
+  double largest_sigmas = 0;
+  NormalizedErrors all;
+  std::vector<NormalizedErrors> cameras;  // of each one's parameters
+  std::vector<NoiseFound> noise;
+  double rigidity2 = 0, expected_rigidity2 = 0;
+
+  double mahalanobis2_per_freedom() const { return mahalanobis2 / all.count; }
+  // Chi-square of n degrees of freedom over n: Gaussian of variance 2 / n for the n in the hundreds
+  // and thousands here; 3.29 sigmas hold 99.9 %.
+  double mahalanobis2_interval() const { return 3.29 * std::sqrt(2.0 / all.count); }
+};
+
+void AddCameras(const Calibration& found, const Eigen::VectorXd& errors,
+                RigStatistics& statistics) {
+  for (int camera = 0; camera < static_cast<int>(statistics.cameras.size()); ++camera) {
+    std::vector<int> rows;
+    for (int i = 0; i < errors.size(); ++i)
+      if (found.parameters[i].index == camera) rows.push_back(i);
+    const Eigen::VectorXd own = errors(rows);
+    statistics.cameras[camera].Add(own, found.covariance(rows, rows));
+  }
 }
 
-RigStatistics RunSeeds(int num_cameras, int num_placements, int num_seeds) {
-  constexpr double kNoise_px = 0.1;
-  RigStatistics statistics;
+// Each camera's corners with a noise of its own.
+std::vector<CameraSightings> SeeWithNoise(const NetworkScene& scene,
+                                          const std::vector<double>& noise_px, unsigned seed) {
+  std::vector<CameraSightings> seen;
+  for (std::size_t camera = 0; camera < noise_px.size(); ++camera)
+    seen.push_back(SeeBoards(scene, noise_px[camera], seed)[camera]);
+  return seen;
+}
+
+RigStatistics RunSeeds(const std::vector<double>& noise_px, int num_placements, int num_seeds) {
+  const int num_cameras = static_cast<int>(noise_px.size());
+  RigStatistics statistics(noise_px.size());
   LensOptions lens;
   lens.model = LensModel::kBrown4;  // the truth
   lens.simplify = false;            // a choice that depends on the noise has no Gaussian errors
   for (int seed = 1; seed <= num_seeds; ++seed) {
     const NetworkScene scene = RigScene(seed, num_cameras, num_placements);
-    const auto rig = CalibrateRig(scene.board, SeeBoards(scene, kNoise_px, 1000 + seed), lens, {});
+    const std::vector<CameraSightings> seen = SeeWithNoise(scene, noise_px, 1000 + seed);
+    const auto rig = CalibrateRig(scene.board, seen, lens, {});
     if (!rig) {
       ADD_FAILURE() << "seed " << seed << ": " << rig.error().message;
       continue;
@@ -115,27 +156,31 @@ RigStatistics RunSeeds(int num_cameras, int num_placements, int num_seeds) {
     const Calibration& found = rig->output;
     const Eigen::VectorXd errors = ErrorsOf(found, scene.array);
     statistics.mahalanobis2 += errors.dot(found.covariance.ldlt().solve(errors));
-    statistics.degrees_of_freedom += static_cast<int>(errors.size());
     const Eigen::ArrayXd sigmas = errors.array().abs() / found.covariance.diagonal().array().sqrt();
     statistics.largest_sigmas = std::max(statistics.largest_sigmas, sigmas.maxCoeff());
-    statistics.normalized2 += sigmas.square().sum();
-    statistics.normalized2_variance += VarianceOfSquares(found.covariance);
+    statistics.all.Add(errors, found.covariance);
+    AddCameras(found, errors, statistics);
+    for (std::size_t camera = 0; camera < noise_px.size(); ++camera)
+      statistics.noise[camera].squares += std::pow(found.noise_px[camera] / noise_px[camera], 2);
+    for (const SightingResult& sighting : found.sightings)
+      statistics.noise[sighting.view.camera].coordinates +=
+          2 * static_cast<int>(sighting.corners.size());
     statistics.rigidity2 += std::pow(found.held_out.rigidity_mm, 2);
     statistics.expected_rigidity2 += std::pow(found.held_out.expected_rigidity_mm, 2);
   }
   return statistics;
 }
 
+int NumSeeds() { return std::getenv("ARTICAP_LONG_TESTS") != nullptr ? 100 : 8; }
+
 class RigStatisticsTest : public testing::TestWithParam<int> {};
 
 TEST_P(RigStatisticsTest, ErrorsAreWhatTheSigmasSay) {
-  const bool is_long = std::getenv("ARTICAP_LONG_TESTS") != nullptr;
-  const int num_seeds = is_long ? 100 : 8;
-  const RigStatistics statistics = RunSeeds(GetParam(), 40, num_seeds);
-  const double per_freedom = statistics.mahalanobis2 / statistics.degrees_of_freedom;
-  // Chi-square of n degrees of freedom over n: Gaussian of variance 2 / n for the n in the hundreds
-  // and thousands here; 3.29 sigmas hold 99.9 %.
-  const double interval = 3.29 * std::sqrt(2.0 / statistics.degrees_of_freedom);
+  const int num_seeds = NumSeeds();
+  const RigStatistics statistics =
+      RunSeeds(std::vector<double>(static_cast<std::size_t>(GetParam()), 0.1), 40, num_seeds);
+  const double per_freedom = statistics.mahalanobis2_per_freedom();
+  const double interval = statistics.mahalanobis2_interval();
   RecordProperty("mahalanobis2_per_freedom", std::to_string(per_freedom));
   std::printf(
       "%d cameras, %d seeds: Mahalanobis^2 per degree of freedom %.4f (1 +- %.4f), largest "
@@ -143,18 +188,42 @@ TEST_P(RigStatisticsTest, ErrorsAreWhatTheSigmasSay) {
       "of what the "
       "noise allows\n",
       GetParam(), num_seeds, per_freedom, interval, statistics.largest_sigmas,
-      statistics.pooled_variance(), statistics.pooled_variance_sigma(),
+      statistics.all.variance(), statistics.all.variance_sigma(),
       std::sqrt(statistics.rigidity2 / num_seeds),
       std::sqrt(statistics.rigidity2 / statistics.expected_rigidity2));
   EXPECT_NEAR(per_freedom, 1, interval);
   EXPECT_LT(statistics.largest_sigmas, 5.5);
   // 5 %, or what so few seeds of so correlated parameters may scatter.
-  EXPECT_NEAR(statistics.pooled_variance(), 1,
-              std::max(0.05, 3.29 * statistics.pooled_variance_sigma()));
+  EXPECT_NEAR(statistics.all.variance(), 1, std::max(0.05, 3.29 * statistics.all.variance_sigma()));
   EXPECT_LT(std::sqrt(statistics.rigidity2 / statistics.expected_rigidity2), 1.2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cameras, RigStatisticsTest, testing::Values(2, 4, 8));
+
+// Were all cameras' noise taken for one, the sigmas of the noisy one would be too small by half,
+// those of the others too large.
+TEST(RigNoiseTest, EachCamerasSigmasGoByItsOwnNoise) {
+  const std::vector<double> noise_px = {0.1, 0.5, 0.1, 0.1};
+  const int num_seeds = NumSeeds();
+  const RigStatistics statistics = RunSeeds(noise_px, 40, num_seeds);
+  std::printf("Mahalanobis^2 per degree of freedom %.4f (1 +- %.4f), largest %.2f sigmas\n",
+              statistics.mahalanobis2_per_freedom(), statistics.mahalanobis2_interval(),
+              statistics.largest_sigmas);
+  EXPECT_NEAR(statistics.mahalanobis2_per_freedom(), 1, statistics.mahalanobis2_interval());
+  EXPECT_LT(statistics.largest_sigmas, 5.5);
+  for (std::size_t camera = 0; camera < noise_px.size(); ++camera) {
+    const NormalizedErrors& errors = statistics.cameras[camera];
+    const NoiseFound& noise = statistics.noise[camera];
+    const double noise2 = noise.squares / num_seeds;
+    std::printf("  cam%zu: normalised variance %.3f (1 +- %.3f), noise %.4f of %.1f px\n", camera,
+                errors.variance(), 3.29 * errors.variance_sigma(),
+                std::sqrt(noise2) * noise_px[camera], noise_px[camera]);
+    EXPECT_NEAR(errors.variance(), 1, 3.29 * errors.variance_sigma()) << camera;
+    // The placements take up a tenth of the coordinates at most.
+    EXPECT_NEAR(noise2, 1, 3.29 * std::sqrt(2 / (0.9 * noise.coordinates))) << camera;
+  }
+  EXPECT_LT(std::sqrt(statistics.rigidity2 / statistics.expected_rigidity2), 1.2);
+}
 
 TEST(RigCalibrationTest, CamerasThatNothingLinksAreNamed) {
   const NetworkScene scene = RigScene(2, 3, 24);
@@ -229,6 +298,42 @@ TEST(RigCalibrationTest, ACameraThatHangsOnAWrongViewIsNotUsable) {
   ASSERT_TRUE(wrong) << wrong.error().message;
   EXPECT_FALSE(wrong->report.IsUsable());
   EXPECT_THAT(wrong->report.verdict, HasSubstr("cam1: where it stands cannot be told"));
+}
+
+TEST(RigCalibrationTest, LensesThatAreHeldAndWrongAreNamed) {
+  RigOptions held;
+  held.adjust_lenses = false;
+  for (int wrong : {0, 2}) {
+    const NetworkScene scene = RigScene(7, 3, 30);
+    std::vector<CameraSightings> seen = SeeBoards(scene, 0.1, 7);
+    for (std::size_t i = 0; i < seen.size(); ++i) seen[i].lens = scene.array.cameras[i].lens;
+    const auto good = CalibrateRig(scene.board, seen, {}, held);
+    ASSERT_TRUE(good) << good.error().message;
+    EXPECT_TRUE(good->report.IsUsable()) << good->report.verdict;
+    seen[wrong].lens->fx_px *= 1.05;
+    seen[wrong].lens->fy_px *= 1.05;
+    const auto rig = CalibrateRig(scene.board, seen, {}, held);
+    ASSERT_TRUE(rig) << rig.error().message;
+    EXPECT_FALSE(rig->report.IsUsable());
+    EXPECT_THAT(rig->report.verdict, HasSubstr(seen[wrong].camera + ": its lens was held at"));
+    held.max_held_focal_percent = 6;
+    EXPECT_TRUE(CalibrateRig(scene.board, seen, {}, held)->report.IsUsable());
+    held.max_held_focal_percent = 2;
+  }
+}
+
+// Where the corners themselves are good, what is wrong with the array shows in how they are off.
+TEST(RigCalibrationTest, ACameraThatMovedBetweenPicturesIsNotUsable) {
+  NetworkScene scene = RigScene(8, 2, 40);
+  std::vector<CameraSightings> seen = SeeBoards(scene, 0.02, 8);
+  scene.array.cameras[1].cam_from_stage.translation_mm.y() += 0.4;
+  const std::vector<CameraSightings> later = SeeBoards(scene, 0.02, 8);
+  for (std::size_t i = 0; i < seen[1].sightings.size(); ++i)
+    if (seen[1].sightings[i].frame >= 20) seen[1].sightings[i] = later[1].sightings[i];
+  const auto rig = CalibrateRig(scene.board, seen, {}, {});
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_FALSE(rig->report.IsUsable()) << rig->report.verdict;
+  EXPECT_THAT(rig->report.verdict, HasSubstr("did it move between pictures"));
 }
 
 TEST(RigCalibrationTest, BoardsBehindTheCamerasAreSetAside) {

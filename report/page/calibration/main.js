@@ -26,6 +26,8 @@ function cameraPart(camera, index) {
   const sightings =
       isWand ? [] : calibration.sightings.filter((sighting) => sighting.camera === index);
   const lens = [distortionCurve(camera, sightings), distortionGrid(camera), lensTable(camera)];
+  const hasMirror = calibration.mirrors.some((mirror) => mirror.camera === index);
+  const noise_px = hasMirror ? calibration.sigma_px : camera.noise_px;
   const size = element('span', {class: 'aside'}, ` ${camera.width} × ${camera.height} pixels`);
   const heading = element('span', {}, camera.name, size);
   if (isWand) return part(`camera-${index}`, heading, figureRow(...lens));
@@ -33,7 +35,7 @@ function cameraPart(camera, index) {
       `camera-${index}`, heading,
       figureRow(
           coverageMap(camera), residualArrows(camera, sightings, calibration.mirrors),
-          residualHistogram(sightings, calibration.sigma_px), ...lens),
+          residualHistogram(sightings, noise_px), ...lens),
       viewBars(sightings, calibration.mirrors));
 }
 

@@ -166,7 +166,7 @@ export function cameraTable({cameras}) {
   const hasOffsets = cameras.some(({time_offset_s: offset}) => offset !== 0);
   const columns = [
     'camera', 'x (mm)', 'y (mm)', 'z (mm)', 'sigma (mm)', 'sigma of direction (°)',
-    ...(hasOffsets ? ['added to its times (ms)', 'sigma (ms)'] : [])
+    ...(hasOffsets ? ['added to its times (ms)', 'sigma (ms)'] : []), 'noise (px)'
   ];
   return numbersTable(columns, cameras.map((camera) => {
     const {translation_sigmas_mm: translation, rotation_sigmas_rad: rotation} =
@@ -177,7 +177,7 @@ export function cameraTable({cameras}) {
     return [
       camera.name, ...centreOf(camera).map((value) => formatFixed(value, 2)),
       sigmaText(normOf(translation)), sigmaText(turn === null ? null : degreesOf(turn)),
-      ...(hasOffsets ? [offset, offsetSigma] : [])
+      ...(hasOffsets ? [offset, offsetSigma] : []), sigmaText(camera.noise_px)
     ];
   }));
 }
@@ -185,7 +185,7 @@ export function cameraTable({cameras}) {
 export function mirrorTable({mirrors, cameras}) {
   const columns = [
     'mirror', 'seen by', 'normal x', 'y', 'z', 'sigma of direction (°)',
-    'distance from origin (mm)', 'sigma (mm)', 'glass (mm)'
+    'distance from origin (mm)', 'sigma (mm)', 'glass (mm)', 'noise (px)'
   ];
   return numbersTable(
       columns,
@@ -198,5 +198,6 @@ export function mirrorTable({mirrors, cameras}) {
                    mirror.normal_sigma_rad === null ? null : degreesOf(mirror.normal_sigma_rad)),
                ...withSigma(mirror.distance_mm, mirror.distance_sigma_mm),
                mirror.glass_mm > 0 ? formatNumber(mirror.glass_mm) : 'none',
+               sigmaText(mirror.noise_px),
   ]));
 }

@@ -24,6 +24,17 @@ function factsOf({figures, calibration}) {
   ];
 }
 
+/** "0.1 px", or "0.1 px (left) to 0.5 px (right)" where some view is noisier by half. */
+function noiseOf({cameras, mirrors, sigma_px}) {
+  const views = [...cameras, ...mirrors].filter(({noise_px}) => isKnown(noise_px));
+  if (views.length === 0) return pixels(sigma_px);
+  views.sort((a, b) => a.noise_px - b.noise_px);
+  const [least, most] = [views[0], views[views.length - 1]];
+  const kAlike = 1.5;
+  if (most.noise_px <= kAlike * least.noise_px) return pixels(sigma_px);
+  return `${pixels(least.noise_px)} (${least.name}) to ${pixels(most.noise_px)} (${most.name})`;
+}
+
 /** Sentences that need no knowledge of calibration. */
 function meaningOf({calibration}) {
   const {wand, cameras, held_out: heldOut} = calibration;
@@ -31,7 +42,7 @@ function meaningOf({calibration}) {
   const meaning =
       [`On average (RMS) ${what} were seen ${
            pixels(calibration.rms_px)} from where the calibration expects them; ` +
-       `the noise of one coordinate is ${pixels(calibration.sigma_px)} (standard deviation).`];
+       `the noise of one coordinate is ${noiseOf(calibration)} (standard deviation).`];
   if (heldOut && isKnown(heldOut.rms_px))
     meaning.push(
         `Pictures that were left out in turn are predicted to ${pixels(heldOut.rms_px)}: ` +
