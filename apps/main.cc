@@ -24,6 +24,7 @@ const std::vector<articap::VerbEntry>& Verbs() {
        articap::InfoCommand},
       {"convert", "between marker formats", articap::ConvertCommand},
       {"label", "name the markers of a recording by where they sit", articap::LabelCommand},
+      {"track", "follow the dots in videos, in 3D and by name", articap::TrackCommand},
       {"stabilize", "factor the movement of the head out", articap::StabilizeCommand},
       {"map", "propose where each marker sits, from the cloud alone", articap::MapCommand},
       {"bind", "tie a speaker's reference pose to a rig, once", articap::BindCommand},

@@ -21,6 +21,7 @@ ExitCode CalibrateMirrorDotsCommand(const std::vector<std::string>& arguments);
 ExitCode CalibrateWandCommand(const std::vector<std::string>& arguments);
 ExitCode CalibrateConvertCommand(const std::vector<std::string>& arguments);
 ExitCode LabelCommand(const std::vector<std::string>& arguments);
+ExitCode TrackCommand(const std::vector<std::string>& arguments);
 ExitCode StabilizeCommand(const std::vector<std::string>& arguments);
 ExitCode MapCommand(const std::vector<std::string>& arguments);
 ExitCode BindCommand(const std::vector<std::string>& arguments);
