@@ -51,6 +51,14 @@ struct DotBlob {
   Eigen::Matrix2d shape_px2 = Eigen::Matrix2d::Identity();
   bool saturated = false;
   bool at_border = false;  // of the picture
+  // Where one side is cut off: the disc that this may be the rest of, and how far along the
+  // direction towards that side the pixels are still the disc's.
+  struct Cut {
+    DotEllipse whole;
+    Eigen::Vector2f direction = Eigen::Vector2f::UnitX();
+    float limit_px = 0;
+  };
+  std::optional<Cut> cut;
 };
 
 // Gathers the pixels around a seed that are above half of the way from what surrounds it to what it
@@ -91,10 +99,15 @@ class DotBlobFinder {
   Moments MeasureInside() const;
   // Whether the pixels inside are those of an ellipse.
   bool IsEllipse(const Moments& moments) const;
-  // Of the patch without the ellipse.
-  double MedianOutside(const Moments& moments);
+  // Of the patch without a disc.
+  double MedianBeyond(const Eigen::Vector2i& middle, double radius_px);
+  // use(index, dx, dy, f2): away from the mean, and f2 = 1 on the ellipse that the moments tell.
+  template <class Use>
+  void ForEachPixel(const Moments& moments, const Use& use) const;
   // Whether the spot ends as a dot does, from the areas above the quarters of its height.
   bool HasEdge(const Moments& moments, double background, double half) const;
+  // Of an ellipse the third moments are zero; of one with a side cut off they point away from it.
+  std::optional<DotBlob::Cut> FindCut(const Moments& moments, const DotBlob& blob) const;
   Eigen::Vector2d WeightedCenter(const Moments& moments, double background) const;
   void GatherPixels(const PixelReader& reader, const DotBlob& blob, const PixelNoise& noise,
                     DotPixels& pixels) const;

@@ -23,9 +23,11 @@ PixelValues ValuesOf(const DotDetectorOptions& options) {
   return {options.polarity == DotPolarity::kDark, options.tone == DotTone::kSrgb, *color};
 }
 
-// Of max_misfit: above it nothing can be a dot, and below it all is well.
+// Of max_misfit: above kMostLeft nothing can be a dot, below kPlain it need not be asked whether
+// something is near, and below kClean not whether something hides a part.
 constexpr double kMostLeft = 4;
 constexpr double kPlain = 0.67;
+constexpr double kClean = 0.2;
 
 // The pixels of an image are not always square: lengths along x and y are divided by `scale`.
 DotBlobLimits LimitsOf(const DotDetectorOptions& options, const Eigen::Vector2d& scale,
@@ -214,21 +216,36 @@ class DotDetector::Implementation {
     return std::nullopt;
   }
 
+  static constexpr double kScale = 0.15;  // of the robust loss, part of the contrast
+
   // Robustly where something seems to hide a part, or to be near.
   std::optional<DotFit> Fit(const DotBlob& blob, bool& hidden) {
     hidden = false;
-    auto fit = fitter_.Fit(pixels_, blob.start, report_.noise);
+    const auto fit = fitter_.Fit(pixels_, blob.start, report_.noise);
     if (!fit || fit->left > kMostLeft * options_.max_misfit) return std::nullopt;
+    if (fit->left <= kClean * options_.max_misfit) return fit;
+    if (blob.cut)
+      if (const auto whole = FitWhole(blob); whole && whole->left < fit->left / 2) {
+        hidden = true;
+        return whole;
+      }
     if (fit->left <= kPlain * options_.max_misfit) return fit;
-    constexpr double kScale = 0.15;  // of the contrast
-    const auto robust = fitter_.FitRobustly(pixels_, *fit, report_.noise, kScale);
-    constexpr double kLeastHidden = 0.05, kMostHidden = 0.25;
+    constexpr double kWidening = 6, kLeastHidden = 0.05, kMostHidden = 0.25;
+    const auto robust = fitter_.FitRobustly(pixels_, fit->model, report_.noise, kScale, kWidening);
     if (robust && robust->disbelieved < kMostHidden &&
         robust->left < kPlain * options_.max_misfit) {
       hidden = robust->disbelieved > kLeastHidden;
       return robust;
     }
     return fit->left <= options_.max_misfit ? fit : std::nullopt;
+  }
+
+  // The disc that the blob may be the rest of.
+  std::optional<DotFit> FitWhole(const DotBlob& blob) {
+    DotModel start = blob.start;
+    start.ellipse = blob.cut->whole;
+    rest_.CopyBefore(pixels_, blob.cut->direction, blob.cut->limit_px);
+    return fitter_.Fit(rest_, start, report_.noise);
   }
 
   // Whether the fit is one of what was seen: where the edge is not round, contrast and blur may
@@ -262,6 +279,7 @@ class DotDetector::Implementation {
   RunJoiner joiner_;
   DotBlobFinder finder_;
   DotPixels pixels_;
+  DotPixels rest_;  // of a dot that is hidden in part
   DotFitter fitter_;
   std::vector<DotRun> runs_;
   std::vector<DotSeed> seeds_;

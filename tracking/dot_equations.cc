@@ -88,6 +88,15 @@ void DotPixels::Finish() {
     x_[i] = y_[i] = value_[i] = saturated_[i] = present_[i] = 0;
 }
 
+void DotPixels::CopyBefore(const DotPixels& others, const Eigen::Vector2f& direction,
+                           float limit_px) {
+  Start(others.count_);
+  for (int i = 0; i < others.count_; ++i)
+    if (direction.dot(Eigen::Vector2f(others.x_[i], others.y_[i])) < limit_px)
+      Add(others.x_[i], others.y_[i], others.value_[i], others.saturated_[i] != 0);
+  Finish();
+}
+
 DotEquations::Normal DotEquations::At(const DotPixels& pixels, const DotModel& model,
                                       const PixelNoise& noise, Weights weights, double scale) {
   const int count = pixels.num_padded();

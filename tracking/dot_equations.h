@@ -22,6 +22,9 @@ class DotPixels {
   // Fills up to whole lanes, with pixels that count for nothing.
   void Finish();
 
+  // Those of others that lie less than `limit_px` along a direction.
+  void CopyBefore(const DotPixels& others, const Eigen::Vector2f& direction, float limit_px);
+
   int count() const { return count_; }
   int num_padded() const { return (count_ + kLanes - 1) / kLanes * kLanes; }
   const float* x() const { return x_.data(); }

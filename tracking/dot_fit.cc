@@ -83,18 +83,19 @@ std::optional<DotFit> DotFitter::Fit(const DotPixels& pixels, const DotModel& st
   return Conclude(at, normal, free);
 }
 
-std::optional<DotFit> DotFitter::FitRobustly(const DotPixels& pixels, const DotFit& start,
-                                             const PixelNoise& noise, double scale) {
+std::optional<DotFit> DotFitter::FitRobustly(const DotPixels& pixels, const DotModel& start,
+                                             const PixelNoise& noise, double scale,
+                                             double widening) {
   pixels_ = &pixels;
   noise_ = noise;
   largest_px_ = std::sqrt(pixels.count());
   steps_ = 0;
-  Parameters at = Pack(start.model);
+  Parameters at = Pack(start);
   Normal normal;
   int free = kWithoutSlope;
-  // From a wide loss, which is nearly convex, to the one wanted.
-  for (const double widened : {6.0, 3.0, 1.5, 1.0, 1.0}) {
-    At(at, Weights::kByLoss, widened * scale * at[kContrast]);
+  constexpr int kPasses = 5;
+  for (int pass = 0; pass < kPasses; ++pass, widening = std::max(1.0, widening / 2)) {
+    At(at, Weights::kByLoss, widening * scale * at[kContrast]);
     free = MinimiseAll(Weights::kKept, at, normal);
   }
   std::optional<DotFit> fit = Conclude(at, normal, free);

@@ -38,9 +38,10 @@ class DotFitter {
 
   // The same from a fit, while pixels that do not follow the model count for less and less (Geman
   // and McClure's loss): for dots of which something is hidden. Residuals of `scale`, a part of the
-  // contrast, count for a quarter.
-  std::optional<DotFit> FitRobustly(const DotPixels& pixels, const DotFit& start,
-                                    const PixelNoise& noise, double scale);
+  // contrast, count for a quarter. `widening`: of the loss in the first step, where it is nearly
+  // convex; 1 for a start to be believed.
+  std::optional<DotFit> FitRobustly(const DotPixels& pixels, const DotModel& start,
+                                    const PixelNoise& noise, double scale, double widening);
 
  private:
   static constexpr int kNumParameters = DotEquations::kNumParameters;

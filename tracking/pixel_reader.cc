@@ -95,6 +95,11 @@ float PixelReader::Value(int x, int y) const {
 }
 
 void PixelReader::ReadValues(int x, int y, int count, float* values) const {
+  if (image_.format == PixelFormat::kGray8) {
+    const std::uint8_t* codes = image_.row(y) + x;
+    for (int i = 0; i < count; ++i) values[i] = gray_[codes[i]];
+    return;
+  }
   for (int i = 0; i < count; ++i) values[i] = Value(x + i, y);
 }
 

@@ -111,6 +111,13 @@ void LightPicture::Add(const PaintedDot& dot) {
     }
 }
 
+void LightPicture::Cover(double from_px, double value, double blur_px) {
+  for (int x = 0; x < width; ++x) {
+    const double covered = 0.5 * std::erfc((from_px - x) / blur_px / std::sqrt(2.0));
+    for (int y = 0; y < height; ++y) at(x, y) += covered * (value - at(x, y));
+  }
+}
+
 double PaintSensor::VarianceAt(double value) const {
   const double step = format == PixelFormat::kGray16 ? 1.0 / 65535 : 1.0 / 255;
   const double read = read_noise_e / full_well_e;
@@ -123,7 +130,9 @@ Image TakePicture(const LightPicture& light, const PaintSensor& sensor, RandomGe
   for (const double value : light.light) {
     const double electrons = random.Poisson(std::max(0.0, value) * sensor.full_well_e) +
                              sensor.read_noise_e * random.Normal();
-    const double part = std::clamp(electrons / sensor.full_well_e, 0.0, 1.0);
+    double part = std::clamp(electrons / sensor.full_well_e, 0.0, 1.0);
+    if (sensor.srgb_tone)  // IEC 61966-2-1
+      part = part <= 0.0031308 ? 12.92 * part : 1.055 * std::pow(part, 1 / 2.4) - 0.055;
     if (sensor.format == PixelFormat::kGray16) {
       const auto code = static_cast<std::uint16_t>(std::lround(65535 * part));
       std::memcpy(byte, &code, sizeof(code));
@@ -174,7 +183,8 @@ Eigen::Matrix2d CenterBound(const PaintedDot& dot, double background, bool with_
   Eigen::VectorXd weights(side * side);
   for (int pixel = 0; pixel < side * side; ++pixel) {
     jacobian.row(pixel).tail<3>() << 1, pixel % side - side / 2, pixel / side - side / 2;
-    weights[pixel] = 1 / sensor.VarianceAt(picture.light[pixel]);
+    const double light = picture.light[pixel];
+    weights[pixel] = light < 1 ? 1 / sensor.VarianceAt(light) : 0;
   }
   const int count = with_slope ? num_all : num_own + 1;
   const auto used = jacobian.leftCols(count);

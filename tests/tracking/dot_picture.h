@@ -36,20 +36,24 @@ struct LightPicture {
   // sampled 64 times a pixel down and exactly across, then filtered by the blur and the pixel's
   // square on a grid of 1/8 px: the middle is right to some 0.0001 px.
   void Add(const PaintedDot& dot);
+  // Something before the picture, with a straight edge: from_px and what is to its right.
+  void Cover(double from_px, double value, double blur_px);
 };
 
 struct PaintSensor {
   PixelFormat format = PixelFormat::kGray8;  // or kGray16
   double full_well_e = 10000;
   double read_noise_e = 5;
+  bool srgb_tone = false;
 
-  // Of a pixel, rounding included.
+  // Of a pixel, rounding included, where the tone is linear.
   double VarianceAt(double light) const;
 };
 Image TakePicture(const LightPicture& light, const PaintSensor& sensor, RandomGenerator& random);
 
 // The Cramer-Rao bound of the middle: the inverse of the Fisher information of all the parameters
 // of a dot (and of its ground, with a slope or without), by differences of the painted picture.
+// Saturated pixels tell nothing.
 Eigen::Matrix2d CenterBound(const PaintedDot& dot, double background, bool with_slope,
                             const PaintSensor& sensor);
 

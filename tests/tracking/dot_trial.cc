@@ -103,7 +103,7 @@ double DotTrialResult::mean_misfit() const {
   return sum / static_cast<double>(samples.size());
 }
 
-DotTrialResult Run(const DotTrial& trial, std::uint64_t seed) {
+DotTrialResult RunTrial(const DotTrial& trial, std::uint64_t seed) {
   RandomGenerator random(seed, kStream);
   DotDetector detector(trial.options);
   DotTrialResult result;

@@ -39,7 +39,7 @@ struct DotTrialResult {
   double mean_diameter_px() const;
   double mean_misfit() const;
 };
-DotTrialResult Run(const DotTrial& trial, std::uint64_t seed);
+DotTrialResult RunTrial(const DotTrial& trial, std::uint64_t seed);
 
 // Root mean square of the Cramer-Rao bounds along x and y, over some places within the pixel.
 double BoundOf(const DotTrial& trial);
