@@ -60,6 +60,30 @@ Result<SyntheticTake> Synthesize(const FaceRig& rig, const SynthesizeArguments& 
   return WithProgress("synthesizing", [&] { return SynthesizeTake(rig, *set, options); });
 }
 
+// The options beyond the take's own, by their tables.
+std::vector<NamedOptions> FurtherOptions(const SynthesizeArguments& arguments) {
+  if (!arguments.is_filmed()) return {};
+  return {{"video", EchoOptions(arguments.video)}, {"sensor", EchoOptions(arguments.sensor)}};
+}
+
+Result<void> WriteTake(const SynthesizeArguments& arguments, const std::string& config_path,
+                       const FaceRig& rig, const SyntheticTake& take,
+                       const DisturbedRecording& disturbed) {
+  OutputSet outputs;
+  for (OutputFile& file : FilesOf(take, disturbed, arguments.noise, FurtherOptions(arguments)))
+    outputs.Add(std::filesystem::path(arguments.folder) / file.name, std::move(file.bytes));
+  if (arguments.is_filmed()) {
+    const FilmedSpeaker speaker(rig, take, arguments.video.film.look);
+    if (auto added = AddVideo(speaker, arguments.video, arguments.sensor, arguments.take.seed,
+                              arguments.folder, outputs);
+        !added)
+      return added;
+  }
+  if (auto allowed = outputs.RefuseToOverwrite({MapInput(arguments.map), config_path}); !allowed)
+    return allowed;
+  return outputs.Commit();
+}
+
 Result<StageReport> RunSynthesize(const SynthesizeArguments& arguments,
                                   const std::string& config_path) {
   if (const auto checked = CheckOptions(arguments); !checked)
@@ -70,28 +94,13 @@ Result<StageReport> RunSynthesize(const SynthesizeArguments& arguments,
   if (!take) return tl::unexpected(take.error());
   const DisturbedRecording disturbed =
       AddNoise(take->markers, arguments.noise, static_cast<std::uint64_t>(arguments.take.seed));
-  OutputSet outputs;
-  for (OutputFile& file : FilesOf(*take, disturbed, arguments.noise))
-    outputs.Add(std::filesystem::path(arguments.folder) / file.name, std::move(file.bytes));
-  if (arguments.is_filmed())
-    if (const auto added =
-            AddVideo(FilmedSpeaker(*rig, *take, arguments.video.film.look), arguments.video,
-                     arguments.sensor, arguments.take.seed, arguments.folder, outputs);
-        !added)
-      return tl::unexpected(added.error());
-  if (const auto allowed = outputs.RefuseToOverwrite({MapInput(arguments.map), config_path});
-      !allowed)
-    return tl::unexpected(allowed.error());
-  if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
+  if (const auto written = WriteTake(arguments, config_path, *rig, *take, disturbed); !written)
+    return tl::unexpected(written.error());
   StageReport report = DescribeTake(*take, disturbed, arguments.folder);
-  const auto add = [&](std::vector<std::pair<std::string, std::string>> options) {
-    report.options.insert(report.options.end(), options.begin(), options.end());
-  };
-  add(EchoOptions(arguments.noise));
-  if (arguments.is_filmed()) {
-    add(EchoOptions(arguments.video));
-    add(EchoOptions(arguments.sensor));
-  }
+  std::vector<NamedOptions> further = FurtherOptions(arguments);
+  further.insert(further.begin(), {"noise", EchoOptions(arguments.noise)});
+  for (const NamedOptions& more : further)
+    report.options.insert(report.options.end(), more.options.begin(), more.options.end());
   return report;
 }
 

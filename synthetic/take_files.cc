@@ -66,7 +66,8 @@ std::string WriteOptions(const std::string& table, const Options& options) {
 }
 
 std::string WriteTruthToml(const SyntheticTake& take, const DisturbedRecording& recorded,
-                           const SyntheticNoiseOptions& noise) {
+                           const SyntheticNoiseOptions& noise,
+                           const std::vector<NamedOptions>& further) {
   std::string text = "# A synthetic take: who spoke, and what was done to the markers.\n";
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "articap_version = {}\nrig = {}\nframes = {}\nrate_hz = {}\n",
@@ -82,6 +83,7 @@ std::string WriteTruthToml(const SyntheticTake& take, const DisturbedRecording& 
     fmt::format_to(out, "{} = {}\n", TomlString(slider.name), TomlFloat(slider.value));
   text += WriteOptions("options", take.options);
   text += WriteOptions("noise", EchoOptions(noise));
+  for (const NamedOptions& more : further) text += WriteOptions(more.table, more.options);
   text += "\n[faults]\n";
   for (const SampleFault fault :
        {SampleFault::kDropout, SampleFault::kGap, SampleFault::kOutlier, SampleFault::kSwap})
@@ -113,13 +115,14 @@ std::string WriteFaultsCsv(const DisturbedRecording& recorded) {
 }  // namespace
 
 std::vector<OutputFile> FilesOf(const SyntheticTake& take, const DisturbedRecording& recorded,
-                                const SyntheticNoiseOptions& noise) {
+                                const SyntheticNoiseOptions& noise,
+                                const std::vector<NamedOptions>& further) {
   return {{"take.c3d", FormatMarkers(recorded.markers, MarkerFormat::kC3d)},
           {"markers.toml", WriteMarkerSet(take.marker_set)},
           {"labels.TextGrid", WriteTextGrid(take.labels)},
           {"truth.csv", WriteParameterCsv(take.truth)},
           {"truth.pose.csv", WriteHeadPoseCsv(take.true_pose)},
-          {"truth.toml", WriteTruthToml(take, recorded, noise)},
+          {"truth.toml", WriteTruthToml(take, recorded, noise, further)},
           {"truth.faults.csv", WriteFaultsCsv(recorded)}};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "synthetic/noise.h"
@@ -22,8 +23,14 @@ struct OutputFile {
 //   truth.pose.csv    head_from_stage (core/head_pose.h)
 //   truth.toml        rig, identity, attachments, options, counts of the faults
 //   truth.faults.csv  frame,marker,fault: the outliers and swaps; what is missing shows in the take
-// The same take gives the same bytes.
+// The same take gives the same bytes. further: options of what else was made of the take, for
+// truth.toml.
+struct NamedOptions {
+  std::string table;
+  std::vector<std::pair<std::string, std::string>> options;
+};
 std::vector<OutputFile> FilesOf(const SyntheticTake& take, const DisturbedRecording& recorded,
-                                const SyntheticNoiseOptions& noise);
+                                const SyntheticNoiseOptions& noise,
+                                const std::vector<NamedOptions>& further = {});
 
 }  // namespace articap
