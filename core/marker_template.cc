@@ -21,7 +21,11 @@ TemplateMarker ReadMarker(const TomlReader& reader) {
   marker.name = reader.Text("name");
   marker.position_mm = reader.Vector("position_mm");
   marker.sigma_mm = reader.Number("sigma_mm", marker.sigma_mm);
-  marker.head_reference = reader.table()["head"].value_or(false);
+  if (reader.Has("head")) {
+    const auto* head = reader.table()["head"].as_boolean();
+    if (!head) reader.Fault("head", "must be true or false");
+    marker.head_reference = head && head->get();
+  }
   if (marker.name.empty()) reader.Fault("name", "must not be empty");
   if (!marker.position_mm.allFinite()) reader.Fault("position_mm", "must be three finite numbers");
   if (!(marker.sigma_mm > 0)) reader.Fault("sigma_mm", "must be more than 0");
