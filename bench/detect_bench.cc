@@ -46,6 +46,8 @@ DotDetectorOptions FaceOptions() {
   DotDetectorOptions options;
   options.min_diameter_px = kMinDiameter_px;
   options.max_diameter_px = kMaxDiameter_px;
+  options.min_contrast = 0.2;
+  options.max_blur_px = 1;
   return options;
 }
 
