@@ -17,7 +17,7 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(ICU REQUIRED IMPORTED_TARGET icu-uc icu-i18n)
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET
                   libavformat libavcodec libavutil libswscale libswresample)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc calib3d aruco)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc features2d calib3d aruco)
 find_library(ARTICAP_HPDF hpdf REQUIRED)
 # PCL's own package file would make us link VTK and Qt, which ICP has no use for.
 if(ARTICAP_WITH_PCL AND NOT TARGET articap_pcl)

