@@ -102,8 +102,10 @@ class Elimination {
     for (const GroupBlocks& group : normal.groups) {
       auto& solver = solvers_.emplace_back(group.own);
       if (solver && !(solver->info() == Eigen::Success && solver->isPositive())) solver.reset();
-      follows_.emplace_back(solver ? solver->solve(group.mixed) : group.mixed);
-      if (solver) schur_ -= group.mixed.transpose() * follows_.back();
+      follows_.push_back(group.mixed);
+      if (!solver || schur_.size() == 0) continue;
+      follows_.back() = solver->solve(group.mixed);
+      schur_ -= group.mixed.transpose() * follows_.back();
     }
   }
 
@@ -116,9 +118,10 @@ class Elimination {
     double leverage = inverse_of_schur.cwiseProduct(part.cameras).sum();
     for (const auto& [index, group] : part.groups) {
       if (!solvers_[index]) continue;
+      leverage += solvers_[index]->solve(group.own).trace();
+      if (schur_.size() == 0) continue;                 // all cameras are held
       const Eigen::MatrixXd& follow = follows_[index];  // G^-1 M
       const Eigen::MatrixXd spread = follow * inverse_of_schur;
-      leverage += solvers_[index]->solve(group.own).trace();
       leverage -= 2 * spread.cwiseProduct(group.mixed).sum();
       leverage += (spread * follow.transpose()).cwiseProduct(group.own).sum();
     }
@@ -128,7 +131,7 @@ class Elimination {
  private:
   Eigen::MatrixXd schur_;
   std::vector<std::optional<Eigen::LDLT<Eigen::MatrixXd>>> solvers_;  // none: undetermined
-  std::vector<Eigen::MatrixXd> follows_;
+  std::vector<Eigen::MatrixXd> follows_;  // G^-1 M of those that are determined
 };
 
 // An inverse, and which of its rows are in directions of which nothing is known.
