@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "tracking/head_motion.h"
 #include "tracking/label_assignment.h"
 #include "tracking/label_smoothing.h"
 #include "tracking/label_votes.h"
@@ -20,7 +21,7 @@ namespace {
 
 // No marker is expected to better than this, however slow.
 constexpr double kLeastSigma_mm = 0.3;
-// Of the pose once it has been found from the frame itself.
+// Of a pose that was found from a frame by itself.
 constexpr double kFoundPoseSigma_mm = 0.3;
 
 // What is known of a marker within the head.
@@ -39,33 +40,38 @@ class LabelPass {
       : clouds_(clouds),
         priors_(priors),
         options_(options),
-        states_(marker_template.markers.size()) {
-    for (const TemplateMarker& marker : marker_template.markers)
-      home_.push_back(
-          {marker.position_mm, marker.sigma_mm * marker.sigma_mm * Eigen::Matrix3d::Identity()});
-  }
+        home_(HomesOf(marker_template)),
+        states_(marker_template.markers.size()),
+        motion_(MiddleOf(home_), options) {}
 
   int searches() const { return searches_; }
 
   LabelledFrame Label(int frame) {
     const auto& cloud = clouds_.frames[frame];
-    LabelledFrame result = Follow(frame);
-    if (!IsEnough(result)) result = Search(cloud);
+    std::optional<PoseEstimate> pose;
+    LabelledFrame result = Follow(frame, pose);
+    const bool is_followed = IsEnough(result);
+    if (!is_followed) result = Search(cloud);
     DropDoubtful(cloud, result);
     result.places = ExpectAll(frame);
     AddPlaces(cloud, result);
-    if (result.template_from_stage) Remember(frame, result);
+    if (!result.template_from_stage) return result;
+    if (is_followed)
+      motion_.Update(SecondsSince(frame, last_frame_), *pose);
+    else
+      motion_.Start(*result.template_from_stage);
+    Remember(frame, result);
     return result;
   }
 
   // Goes on from a frame that was labelled elsewhere.
+  void StartFrom(int frame, const LabelledFrame& labelled) {
+    motion_.Start(*labelled.template_from_stage);
+    Remember(frame, labelled);
+  }
+
+ private:
   void Remember(int frame, const LabelledFrame& labelled) {
-    const Rigid3d& pose = *labelled.template_from_stage;
-    if (last_pose_ && std::abs(frame - last_frame_) == 1)
-      step_ = pose * last_pose_->Inverse();
-    else
-      step_ = Rigid3d{};
-    last_pose_ = pose;
     last_frame_ = frame;
     for (int m = 0; m < static_cast<int>(states_.size()); ++m) {
       if (labelled.points[m] < 0) continue;
@@ -80,7 +86,6 @@ class LabelPass {
     }
   }
 
- private:
   double SecondsSince(int frame, int earlier) const {
     return std::abs(frame - earlier) / clouds_.rate_hz;
   }
@@ -105,28 +110,22 @@ class LabelPass {
     return all;
   }
 
-  LabelledFrame Follow(int frame) const {
+  LabelledFrame Follow(int frame, std::optional<PoseEstimate>& pose) const {
     constexpr int kRounds = 3;
     LabelledFrame result;
-    if (!last_pose_) return result;
     const double since_s = SecondsSince(frame, last_frame_);
-    if (since_s > options_.memory_s) return result;
+    if (!motion_.is_known() || since_s > options_.memory_s) return result;
     const auto& cloud = clouds_.frames[frame];
     const std::vector<MarkerPlace> expected = ExpectAll(frame);
-    const double strayed_mm =
-        kFoundPoseSigma_mm + options_.head_acceleration_mm_s2 * since_s * since_s / 2;
-    constexpr double kArm_mm = 80;  // at which turning moves a marker as far as shifting
-    const PosePrior prior = {step_ * *last_pose_, strayed_mm / kArm_mm, strayed_mm};
-    Rigid3d pose = prior.template_from_stage;
-    double pose_sigma_mm = strayed_mm;
+    const PoseEstimate prior = motion_.Predict(since_s);
+    pose = prior;
     for (int round = 0; round < kRounds; ++round) {
-      const LabelCosts costs = CostsOf(expected, cloud, pose, pose_sigma_mm, priors_);
+      const LabelCosts costs = CostsOf(expected, cloud, *pose, priors_);
       result.points = AssignPoints(costs, cloud);
       result.margins = MarginsOf(costs, cloud, result.points);
       pose = PoseOf(expected, cloud, result.points, prior);
-      pose_sigma_mm = kFoundPoseSigma_mm;
     }
-    result.template_from_stage = pose;
+    result.template_from_stage = pose->template_from_stage;
     return result;
   }
 
@@ -147,9 +146,9 @@ class LabelPass {
     ++searches_;
     result.template_from_stage = found->template_from_stage;
     result.points = found->points;
-    result.margins =
-        MarginsOf(CostsOf(home_, cloud, found->template_from_stage, kFoundPoseSigma_mm, priors_),
-                  cloud, found->points);
+    const auto pose = PoseEstimate::Isotropic(found->template_from_stage, motion_.center_mm(), 0,
+                                              kFoundPoseSigma_mm);
+    result.margins = MarginsOf(CostsOf(home_, cloud, pose, priors_), cloud, found->points);
     return result;
   }
 
@@ -158,9 +157,8 @@ class LabelPass {
   const LabelOptions& options_;
   std::vector<MarkerPlace> home_;  // where the template says
   std::vector<MarkerState> states_;
-  std::optional<Rigid3d> last_pose_;
+  HeadMotion motion_;
   int last_frame_ = 0;
-  Rigid3d step_;  // of the head, from one frame to the next
   int searches_ = 0;
 };
 
@@ -259,7 +257,7 @@ Labelling LabelClouds(const PointClouds& clouds, const MarkerTemplate& marker_te
   // What came before may show too little of the head to find it, yet enough to follow it.
   if (first > 0) {
     LabelPass backwards(clouds, marker_template, priors, options);
-    backwards.Remember(first, labelling.frames[first]);
+    backwards.StartFrom(first, labelling.frames[first]);
     for (int frame = first - 1; frame >= 0; --frame)
       labelling.frames[frame] = backwards.Label(frame);
   }

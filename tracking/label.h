@@ -14,10 +14,10 @@
 namespace articap {
 
 struct LabelOptions {
-  double seen = 0.9;                       // part of a marker's frames in which it is found
-  double false_points = 2;                 // a frame, in a cube of 300 mm
-  double head_acceleration_mm_s2 = 10000;  // about the most
-  double attitude_sigma_deg = 40;          // of the head, from where the template was learnt
+  double seen = 0.9;                      // part of a marker's frames in which it is found
+  double false_points = 2;                // a frame, in a cube of 300 mm
+  double head_acceleration_mm_s2 = 3000;  // about the most of a speaker's head
+  double attitude_sigma_deg = 40;         // of the head, from where the template was learnt
   double memory_s = 0.2;     // how long a marker stays away from where the template says, about
   double least_share = 0.3;  // of the template's markers, to find the head in a frame of its own
 };
@@ -48,12 +48,12 @@ struct Labelling {
 
 // Names the points of every frame by a template of the speaker. The head is found in the first
 // frame that shows enough of it, by what is rigid: triples of points as far apart as the
-// template's. From there on each frame begins with what the last ones promise: the head goes on
-// moving as it did, markers move little within it. The assignment is the most likely one of all
-// markers to all points, or to none; the head's pose and the assignment are found in turns. Points
-// that claim one dot exclude one another. A second pass expects every marker between where it was
-// before and after, which finds what moved too fast and drops what was not it. Then tracklets (the
-// same point from frame to frame, whatever its label) vote, and outvoted samples are relabelled.
+// template's. From there on each frame begins with what the last ones promise (HeadMotion), markers
+// move little within it. The assignment is the most likely one of all markers to all points, or to
+// none; the head's pose and the assignment are found in turns. Points that claim one dot exclude
+// one another. A second pass expects every marker between where it was before and after, which
+// finds what moved too fast and drops what was not it. Then tracklets (the same point from frame to
+// frame, whatever its label) vote, and outvoted samples are relabelled.
 Labelling LabelClouds(const PointClouds& clouds, const MarkerTemplate& marker_template,
                       const LabelOptions& options);
 

@@ -2,7 +2,6 @@
 #include "tracking/label_assignment.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,19 +15,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Beyond this many standard deviations a point is no candidate, whatever else there is.
 constexpr double kFarthest_sigmas = 8;
-// Of a point whose file does not say how well it was measured.
-constexpr double kAssumedPointSigma_mm = 0.2;
-
-Eigen::Matrix3d CovarianceOf_mm2(const CloudPoint& point) {
-  if (point.covariance_mm2.allFinite()) return point.covariance_mm2;
-  return kAssumedPointSigma_mm * kAssumedPointSigma_mm * Eigen::Matrix3d::Identity();
-}
-
-Eigen::Matrix3d CovarianceInTemplate(const CloudPoint& point, const Rigid3d& template_from_stage) {
-  const Eigen::Matrix3d rotation = template_from_stage.rotation.toRotationMatrix();
-  return rotation * CovarianceOf_mm2(point) * rotation.transpose();
-}
-
 // Of two labelled points that claim one dot, the dearer: marker index, or -1.
 int FindContradiction(const LabelCosts& costs, std::span<const CloudPoint> cloud,
                       const std::vector<int>& points) {
@@ -43,39 +29,15 @@ int FindContradiction(const LabelCosts& costs, std::span<const CloudPoint> cloud
   return -1;
 }
 
-Eigen::Vector3d MiddleOf(std::span<const MarkerPlace> markers) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const MarkerPlace& marker : markers) sum += marker.position_mm;
-  return sum / static_cast<double>(markers.size());
-}
-
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
-
-// A small rotation about a point, then a translation.
-Rigid3d TurnedAbout(const Eigen::Vector3d& center, const Eigen::Matrix<double, 6, 1>& change) {
-  const Eigen::Vector3d turn = change.head<3>();
-  const double angle = turn.norm();
-  Rigid3d result;
-  if (angle > 0) result.rotation = Eigen::AngleAxisd(angle, turn / angle);
-  result.translation_mm = center + change.tail<3>() - result.rotation * center;
-  return result;
-}
-
-// The change that leads from `from` to `to`, as TurnedAbout takes it.
-Eigen::Matrix<double, 6, 1> DifferenceOf(const Rigid3d& to, const Rigid3d& from,
-                                         const Eigen::Vector3d& center) {
-  const Rigid3d between = to * from.Inverse();
-  const Eigen::AngleAxisd turn(between.rotation);
-  Eigen::Matrix<double, 6, 1> change;
-  change << turn.angle() * turn.axis(), between * center - center;
-  return change;
-}
-
 }  // namespace
+
+std::vector<MarkerPlace> HomesOf(const MarkerTemplate& marker_template) {
+  std::vector<MarkerPlace> homes;
+  for (const TemplateMarker& marker : marker_template.markers)
+    homes.push_back(
+        {marker.position_mm, marker.sigma_mm * marker.sigma_mm * Eigen::Matrix3d::Identity()});
+  return homes;
+}
 
 bool ClaimOneDot(const CloudPoint& a, const CloudPoint& b) {
   for (const DotSight& sight : a.sights)
@@ -85,8 +47,7 @@ bool ClaimOneDot(const CloudPoint& a, const CloudPoint& b) {
 }
 
 LabelCosts CostsOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
-                   const Rigid3d& template_from_stage, double pose_sigma_mm,
-                   const LabelPriors& priors) {
+                   const PoseEstimate& pose, const LabelPriors& priors) {
   const double false_per_mm3 = std::max(priors.false_points, 1e-3) / std::pow(300.0, 3);
   const double constant =
       3 * std::log(2 * std::numbers::pi) + 2 * std::log(false_per_mm3) - 2 * std::log(priors.seen);
@@ -94,12 +55,12 @@ LabelCosts CostsOf(std::span<const MarkerPlace> markers, std::span<const CloudPo
   result.null_cost = -2 * std::log(1 - priors.seen);
   result.costs.setConstant(static_cast<int>(markers.size()), static_cast<int>(cloud.size()),
                            kInfinity);
-  const Eigen::Matrix3d of_pose = pose_sigma_mm * pose_sigma_mm * Eigen::Matrix3d::Identity();
   for (int p = 0; p < static_cast<int>(cloud.size()); ++p) {
-    const Eigen::Vector3d position = template_from_stage * cloud[p].position_in_stage_mm;
+    const Eigen::Vector3d position = pose.template_from_stage * cloud[p].position_in_stage_mm;
     const double views =
         cloud[p].sights.size() == 1 ? priors.seen_by_one_view : 1 - priors.seen_by_one_view;
-    const Eigen::Matrix3d of_point = CovarianceInTemplate(cloud[p], template_from_stage) + of_pose;
+    const Eigen::Matrix3d of_point = CovarianceInTemplate_mm2(cloud[p], pose.template_from_stage) +
+                                     pose.CovarianceAt_mm2(position);
     for (int m = 0; m < static_cast<int>(markers.size()); ++m) {
       const Eigen::Vector3d apart = position - markers[m].position_mm;
       const Eigen::Matrix3d covariance = of_point + markers[m].covariance_mm2;
@@ -163,47 +124,13 @@ MarkerPlace PlaceOf(const MarkerPlace& marker, const CloudPoint& point,
                     const Rigid3d& template_from_stage) {
   const Eigen::Matrix3d& expected = marker.covariance_mm2;
   // expected (expected + measured)^-1, both symmetric.
-  const Eigen::Matrix3d gain = (expected + CovarianceInTemplate(point, template_from_stage))
+  const Eigen::Matrix3d gain = (expected + CovarianceInTemplate_mm2(point, template_from_stage))
                                    .llt()
                                    .solve(expected)
                                    .transpose();
   const Eigen::Vector3d apart =
       template_from_stage * point.position_in_stage_mm - marker.position_mm;
   return {marker.position_mm + gain * apart, expected - gain * expected};
-}
-
-Rigid3d PoseOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
-               const std::vector<int>& points, const PosePrior& prior) {
-  constexpr int kMostSteps = 8;
-  constexpr double kStill = 1e-7;  // rad, and mm
-  const Eigen::Vector3d center = MiddleOf(markers);
-  Eigen::Matrix<double, 6, 1> information;
-  information << Eigen::Vector3d::Constant(1 /
-                                           (prior.rotation_sigma_rad * prior.rotation_sigma_rad)),
-      Eigen::Vector3d::Constant(1 / (prior.translation_sigma_mm * prior.translation_sigma_mm));
-  Rigid3d pose = prior.template_from_stage;
-  for (int step = 0; step < kMostSteps; ++step) {
-    Eigen::Matrix<double, 6, 6> normal = information.asDiagonal();
-    Eigen::Matrix<double, 6, 1> side =
-        -information.cwiseProduct(DifferenceOf(pose, prior.template_from_stage, center));
-    for (int m = 0; m < static_cast<int>(points.size()); ++m) {
-      if (points[m] < 0) continue;
-      const CloudPoint& point = cloud[points[m]];
-      const Eigen::Vector3d place = pose * point.position_in_stage_mm;
-      const Eigen::Matrix3d covariance =
-          CovarianceInTemplate(point, pose) + markers[m].covariance_mm2;
-      Eigen::Matrix<double, 3, 6> jacobian;
-      jacobian << -CrossMatrix(place - center), Eigen::Matrix3d::Identity();
-      const Eigen::Matrix<double, 6, 3> weighted =
-          jacobian.transpose() * covariance.llt().solve(Eigen::Matrix3d::Identity());
-      normal += weighted * jacobian;
-      side += weighted * (markers[m].position_mm - place);
-    }
-    const Eigen::Matrix<double, 6, 1> change = normal.ldlt().solve(side);
-    pose = TurnedAbout(center, change) * pose;
-    if (change.norm() < kStill) break;
-  }
-  return pose;
 }
 
 void DropDoubtful(std::span<const CloudPoint> cloud, LabelledFrame& labelled) {

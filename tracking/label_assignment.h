@@ -5,12 +5,17 @@
 #include <span>
 #include <vector>
 
+#include "core/marker_template.h"
 #include "core/point_cloud.h"
 #include "core/transforms.h"
 #include "tracking/label.h"
 #include "tracking/marker_place.h"
+#include "tracking/pose_estimate.h"
 
 namespace articap {
+
+// Where the template expects its markers while nothing else is known.
+std::vector<MarkerPlace> HomesOf(const MarkerTemplate& marker_template);
 
 // How unlikely it is, twice the negative log, that a point is what a marker shows, compared with
 // its being false; and that the marker shows nothing.
@@ -23,10 +28,8 @@ struct LabelPriors {
   double false_points = 2;        // LabelOptions
   double seen_by_one_view = 0.1;  // part of what is seen
 };
-// `pose_sigma_mm`: what the pose may be off, SD of a coordinate.
 LabelCosts CostsOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
-                   const Rigid3d& template_from_stage, double pose_sigma_mm,
-                   const LabelPriors& priors);
+                   const PoseEstimate& pose, const LabelPriors& priors);
 
 // Whether at most one of the two points can be right.
 bool ClaimOneDot(const CloudPoint& a, const CloudPoint& b);
@@ -48,20 +51,6 @@ std::vector<float> MarginsOf(const LabelCosts& costs, std::span<const CloudPoint
 // filter.
 MarkerPlace PlaceOf(const MarkerPlace& marker, const CloudPoint& point,
                     const Rigid3d& template_from_stage);
-
-// What is known of a pose beforehand: SD of the rotation about each axis, and of the translation
-// of the middle of the expected places.
-struct PosePrior {
-  Rigid3d template_from_stage;
-  double rotation_sigma_rad;
-  double translation_sigma_mm;
-};
-
-// template_from_stage of the greatest likelihood: each labelled point by its own covariance, so
-// that what a single view sees counts across its ray, and each marker by how well its place is
-// known. By Gauss and Newton's method from the prior.
-Rigid3d PoseOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
-               const std::vector<int>& points, const PosePrior& prior);
 
 // Forgets labels of single sights that something else would explain nearly as well: such a dot is
 // easily a neighbour's, or false, where the marker itself is hidden.

@@ -22,6 +22,7 @@ class BothSides {
         priors_(priors),
         memory_s_(memory_s),
         frames_(frames),
+        center_mm_(MiddleOf(HomesOf(marker_template))),
         before_(marker_template.markers.size(), -1),
         after_(marker_template.markers.size(), -1) {}
 
@@ -60,15 +61,17 @@ class BothSides {
     result.places.clear();
     for (int m = 0; m < static_cast<int>(template_.markers.size()); ++m)
       result.places.push_back(Expect(m, frame));
-    const PosePrior prior = {*result.template_from_stage, kPoseSigma_rad, kPoseSigma_mm};
+    const auto prior = PoseEstimate::Isotropic(*result.template_from_stage, center_mm_,
+                                               kPoseSigma_rad, kPoseSigma_mm);
+    PoseEstimate pose = prior;
     constexpr int kRounds = 2;
     for (int round = 0; round < kRounds; ++round) {
-      const LabelCosts costs =
-          CostsOf(result.places, cloud, *result.template_from_stage, kPoseSigma_mm, priors_);
+      const LabelCosts costs = CostsOf(result.places, cloud, pose, priors_);
       result.points = AssignPoints(costs, cloud);
       result.margins = MarginsOf(costs, cloud, result.points);
-      result.template_from_stage = PoseOf(result.places, cloud, result.points, prior);
+      pose = PoseOf(result.places, cloud, result.points, prior);
     }
+    result.template_from_stage = pose.template_from_stage;
     DropDoubtful(cloud, result);
     AddPlaces(cloud, result);
     return result;
@@ -117,6 +120,7 @@ class BothSides {
   const LabelPriors& priors_;
   double memory_s_;
   std::vector<LabelledFrame>& frames_;
+  Eigen::Vector3d center_mm_;
   // By marker: the nearest labelled frames of the one that is being labelled; -1 for none.
   std::vector<int> before_, after_;
 };

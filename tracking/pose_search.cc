@@ -31,7 +31,11 @@ class HeadSearch {
  public:
   HeadSearch(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
              const LabelPriors& priors, const LabelOptions& options)
-      : markers_(markers), cloud_(cloud), priors_(priors), options_(options) {
+      : markers_(markers),
+        cloud_(cloud),
+        priors_(priors),
+        options_(options),
+        center_mm_(MiddleOf(markers)) {
     for (const MarkerPlace& marker : markers)
       sigmas_mm_.push_back(std::sqrt(marker.covariance_mm2.trace() / 3));
     for (const CloudPoint& point : cloud)
@@ -200,13 +204,14 @@ class HeadSearch {
     double pose_sigma_mm = kStartSigma_mm;
     for (int round = 0; round < kRounds; ++round) {
       const LabelCosts costs =
-          CostsOf(markers_, cloud_, head.template_from_stage, pose_sigma_mm, priors_);
+          CostsOf(markers_, cloud_, Around(head.template_from_stage, 0, pose_sigma_mm), priors_);
       head.points = AssignPoints(costs, cloud_);
       head.cost = TotalCost(costs, head.points) + CostOfAttitude(head.template_from_stage);
       if (round + 1 == kRounds) break;
       constexpr double kLoose_rad = 0.5, kLoose_mm = 50;
-      head.template_from_stage =
-          PoseOf(markers_, cloud_, head.points, {head.template_from_stage, kLoose_rad, kLoose_mm});
+      head.template_from_stage = PoseOf(markers_, cloud_, head.points,
+                                        Around(head.template_from_stage, kLoose_rad, kLoose_mm))
+                                     .template_from_stage;
       pose_sigma_mm /= 2;
     }
     const auto count =
@@ -214,6 +219,11 @@ class HeadSearch {
     const double least = options_.least_share * static_cast<double>(markers_.size());
     if (static_cast<double>(count) < std::max(3.0, least)) return std::nullopt;
     return head;
+  }
+
+  PoseEstimate Around(const Rigid3d& pose, double rotation_sigma_rad,
+                      double translation_sigma_mm) const {
+    return PoseEstimate::Isotropic(pose, center_mm_, rotation_sigma_rad, translation_sigma_mm);
   }
 
   static bool AreAlike(const Rigid3d& a, const Rigid3d& b) {
@@ -242,6 +252,7 @@ class HeadSearch {
   std::vector<Eigen::Vector3d> points_mm_;  // of those whose place is known, stage
   const LabelPriors& priors_;
   const LabelOptions& options_;
+  Eigen::Vector3d center_mm_;
   std::vector<Proposal> proposals_;
   int num_proposals_ = 0;
 };

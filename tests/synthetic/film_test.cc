@@ -118,9 +118,12 @@ TEST(FilmTest, TheTableOfDotsIsOfThePictures) {
   EXPECT_EQ(dots[0].view, "camera1");
   EXPECT_EQ(dots[0].marker, "nose");
   const Image picture = film.Picture(4, 0);
+  // BrightNear() loses up to a tenth of a pixel in each of the twelve on the edge of a dot of 4 px
+  // (SD 0.03): some 0.015 px a coordinate, and this is four times that.
+  constexpr double kThreshold_px = 0.06;
   for (const CsvDot& dot : dots) {
     EXPECT_EQ(dot.visible, 1);
-    EXPECT_LT((BrightNear(picture, dot.center_px, 4) - dot.center_px).norm(), 0.03);
+    EXPECT_LT((BrightNear(picture, dot.center_px, 4) - dot.center_px).norm(), kThreshold_px);
   }
 }
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "core/marker_set.h"
 #include "rig/default_head/default_head.h"
+#include "synthetic/random.h"
 #include "synthetic/speaker.h"
 #include "tests/support/test_data.h"
 
@@ -16,6 +16,7 @@ namespace articap {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::uint64_t kStream = 102;
 
 SyntheticTake TakeOf(const SpeakerDotsOptions& options) {
   static const FaceRig rig = MakeDefaultHead().value();
@@ -39,7 +40,7 @@ Rigid3d StageFromHead(double time_s, double turn_deg) {
 class DotMaker {
  public:
   explicit DotMaker(const SpeakerDotsOptions& options)
-      : options_(options), random_(options.seed), take_(TakeOf(options)) {
+      : options_(options), random_(options.seed, kStream), take_(TakeOf(options)) {
     for (const View& view : options.cameras.array.views())
       projections_.push_back(ProjectionOf(options.cameras.array, view));
   }
@@ -83,7 +84,7 @@ class DotMaker {
                 const Eigen::Vector3d& outwards, int marker, SpeakerDots& scene) {
     const Eigen::Vector3d towards = (projection.eye_in_stage_mm - point).normalized();
     if (towards.dot(outwards) < std::cos(options_.most_oblique_deg * kDegree)) return;
-    if (uniform_(random_) < options_.dropout) return;
+    if (random_.Uniform() < options_.dropout) return;
     const auto point_px = Project(options_.cameras.array, projection.view, point);
     if (point_px) AddDot(projection.view.camera, *point_px, marker, scene);
   }
@@ -93,13 +94,13 @@ class DotMaker {
     // Where the face is, about.
     AddDot(
         camera,
-        {of.width * (0.3 + 0.4 * uniform_(random_)), of.height * (0.2 + 0.6 * uniform_(random_))},
+        {of.width * (0.3 + 0.4 * random_.Uniform()), of.height * (0.2 + 0.6 * random_.Uniform())},
         -1, scene);
   }
 
   void AddDot(int camera, Eigen::Vector2d center_px, int owner, SpeakerDots& scene) {
     const Camera& of = options_.cameras.array.cameras[camera];
-    center_px += options_.noise_px * Eigen::Vector2d(normal_(random_), normal_(random_));
+    center_px += options_.noise_px * Eigen::Vector2d{random_.Normal(), random_.Normal()};
     if (!(center_px.x() > 0 && center_px.x() < of.width - 1 && center_px.y() > 0 &&
           center_px.y() < of.height - 1))
       return;
@@ -113,9 +114,7 @@ class DotMaker {
   }
 
   const SpeakerDotsOptions& options_;
-  std::mt19937_64 random_;
-  std::uniform_real_distribution<double> uniform_{0, 1};
-  std::normal_distribution<double> normal_{0, 1};
+  RandomGenerator random_;
   SyntheticTake take_;
   std::vector<ViewProjection> projections_;
 };
