@@ -189,11 +189,15 @@ Result<void> RefuseDoubtful(const std::optional<ReferenceFit>& fit, const Marker
   return {};
 }
 
-double SpreadOf_mm(const std::vector<double>& values, double middle) {
-  std::vector<double> apart;
-  for (const double value : values) apart.push_back(std::abs(value - middle));
-  constexpr double kNormal = 1.4826;  // SD of a normal distribution over its median deviation
-  return kNormal * MedianOf(apart);
+// The SD of a normal distribution in whose middle nine tenths of the values lie: speech has long
+// tails, for lips are at rest most of the time.
+double SpreadOf_mm(std::vector<double> values, double middle) {
+  for (double& value : values) value = std::abs(value - middle);
+  constexpr double kPart = 0.9, kNormal = 1.6449;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(kPart * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at / kNormal;
 }
 
 }  // namespace
@@ -259,7 +263,8 @@ Result<MarkerTemplate> LearnTemplate(const PointClouds& clouds, const MarkerTemp
 }
 
 MarkerTemplate RefineTemplate(const MarkerTemplate& marker_template, const Labelling& labelling) {
-  constexpr double kLeastSigma_mm = 0.5;
+  // A take of a few sentences does not show all that a face can do.
+  constexpr double kLeastSigma_mm = 0.5, kLeastFaceSigma_mm = 2;
   constexpr std::size_t kFewest = 20;
   MarkerTemplate refined = marker_template;
   for (std::size_t m = 0; m < refined.markers.size(); ++m) {
@@ -276,9 +281,8 @@ MarkerTemplate RefineTemplate(const MarkerTemplate& marker_template, const Label
       const double spread_mm = SpreadOf_mm(places[axis], marker.position_mm[axis]);
       variance = std::max(variance, spread_mm * spread_mm);
     }
-    // Speech has long tails: lips are at rest half of the time.
-    constexpr double kTails = 1.5;
-    marker.sigma_mm = std::max(kTails * std::sqrt(variance), kLeastSigma_mm);
+    marker.sigma_mm =
+        std::max(std::sqrt(variance), marker.head_reference ? kLeastSigma_mm : kLeastFaceSigma_mm);
   }
   return refined;
 }
