@@ -93,6 +93,24 @@ double TotalCost(const LabelCosts& costs, const std::vector<int>& points) {
   return total;
 }
 
+namespace {
+
+// Whether two points of different views may well be one marker, of which a view shows too little to
+// tell its middle: then they are no rivals.
+bool MayBeOne(const CloudPoint& a, const CloudPoint& b) {
+  for (const DotSight& sight : a.sights)
+    for (const DotSight& other : b.sights)
+      if (sight.view == other.view) return false;
+  constexpr double kHidden_mm = 1, kSigmas = 3;
+  const Eigen::Matrix3d covariance = CovarianceOf_mm2(a) + CovarianceOf_mm2(b) +
+                                     kHidden_mm * kHidden_mm * Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d apart = a.position_in_stage_mm - b.position_in_stage_mm;
+  return !a.sights.empty() && !b.sights.empty() &&
+         apart.dot(covariance.llt().solve(apart)) < kSigmas * kSigmas;
+}
+
+}  // namespace
+
 std::vector<float> MarginsOf(const LabelCosts& costs, std::span<const CloudPoint> cloud,
                              const std::vector<int>& points) {
   // A point of dots that labelled points explain is no alternative.
@@ -107,7 +125,8 @@ std::vector<float> MarginsOf(const LabelCosts& costs, std::span<const CloudPoint
     const double own = costs.costs(m, points[m]);
     double least = costs.null_cost - own;
     for (int p = 0; p < costs.costs.cols(); ++p)
-      if (!explained[p]) least = std::min(least, costs.costs(m, p) - own);
+      if (!explained[p] && !MayBeOne(cloud[points[m]], cloud[p]))
+        least = std::min(least, costs.costs(m, p) - own);
     for (int other = 0; other < static_cast<int>(points.size()); ++other) {
       if (other == m) continue;
       const double before = points[other] < 0 ? costs.null_cost : costs.costs(other, points[other]);

@@ -61,12 +61,15 @@ Eigen::Vector3d MiddleOf(std::span<const MarkerPlace> markers) {
   return sum / static_cast<double>(markers.size());
 }
 
+Eigen::Matrix3d CovarianceOf_mm2(const CloudPoint& point) {
+  if (point.covariance_mm2.allFinite()) return point.covariance_mm2;
+  return kAssumedPointSigma_mm * kAssumedPointSigma_mm * Eigen::Matrix3d::Identity();
+}
+
 Eigen::Matrix3d CovarianceInTemplate_mm2(const CloudPoint& point,
                                          const Rigid3d& template_from_stage) {
-  if (!point.covariance_mm2.allFinite())
-    return kAssumedPointSigma_mm * kAssumedPointSigma_mm * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d rotation = template_from_stage.rotation.toRotationMatrix();
-  return rotation * point.covariance_mm2 * rotation.transpose();
+  return rotation * CovarianceOf_mm2(point) * rotation.transpose();
 }
 
 PoseEstimate PoseOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,

@@ -34,8 +34,8 @@ PoseChange ChangeBetween(const Rigid3d& from, const Rigid3d& to, const Eigen::Ve
 
 Eigen::Vector3d MiddleOf(std::span<const MarkerPlace> markers);
 
-// Of a point in the template; 0.2 mm a coordinate where a file does not say how well it was
-// measured.
+// Of a point; 0.2 mm a coordinate where a file does not say how well it was measured.
+Eigen::Matrix3d CovarianceOf_mm2(const CloudPoint& point);  // in the stage
 Eigen::Matrix3d CovarianceInTemplate_mm2(const CloudPoint& point,
                                          const Rigid3d& template_from_stage);
 
