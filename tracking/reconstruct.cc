@@ -24,8 +24,9 @@ struct Candidate {
   int view = 0;  // index in the projections
   int camera = 0;
   int dot = 0;
-  double sigma_px = 0;  // of the centre, the mean of both directions
-  double sigma_rad = 0;
+  double sigma_px = 0;   // of the centre, the mean of both directions
+  double hidden_px = 0;  // how far off the centre may be if the marker is half hidden
+  double px_of_rad = 0;
   SightLine line;
 };
 
@@ -53,8 +54,11 @@ class Instant {
   }
 
   std::vector<CloudPoint> Points(const std::optional<WorkingVolume>& volume) {
-    for (int first = 0; first < num_views(); ++first)
-      for (int second = first + 1; second < num_views(); ++second) PairViews(first, second);
+    PairAllViews();
+    for (const Hypothesis& hypothesis : hypotheses_)
+      for (const int member : hypothesis.members) matched_.insert(KeyOf(member));
+    second_chance_ = true;
+    PairAllViews();
     std::set<DotKey> taken;
     std::vector<CloudPoint> points = Choose(taken);
     if (volume) AddSingleSights(*volume, taken, points);
@@ -70,19 +74,37 @@ class Instant {
     const ViewProjection& projection = projections_[view];
     const Lens& lens = array_.cameras[projection.view.camera].lens;
     for (int dot = 0; dot < static_cast<int>(dots.size()); ++dot) {
-      const auto line = SightLineOf(array_, projection, dots[dot], options_.calibration_px);
+      // Of its diameter, SD and the farthest: half of a disc has its middle 0.21 diameters aside.
+      constexpr double kHidden = 0.1, kMostHidden = 0.25;
+      const double diameter_px = dots[dot].diameter_px();
+      const double slack_px =
+          std::hypot(options_.calibration_px, dots[dot].occluded ? kHidden * diameter_px : 0);
+      const auto line = SightLineOf(array_, projection, dots[dot], slack_px);
       if (!line) continue;
-      Candidate candidate = {
-          .view = view, .camera = projection.view.camera, .dot = dot, .line = *line};
-      candidate.sigma_px = std::sqrt(dots[dot].covariance_px2.trace() / 2 +
-                                     options_.calibration_px * options_.calibration_px);
-      candidate.sigma_rad = Gate_px(candidate.sigma_px) / std::min(lens.fx_px, lens.fy_px);
-      candidates_.push_back(candidate);
+      candidates_.push_back(
+          {.view = view,
+           .camera = projection.view.camera,
+           .dot = dot,
+           .sigma_px = std::sqrt(dots[dot].covariance_px2.trace() / 2 + slack_px * slack_px),
+           .hidden_px = MayBeHidden(dots[dot]) ? kMostHidden * diameter_px : 0,
+           .px_of_rad = std::min(lens.fx_px, lens.fy_px),
+           .line = *line});
     }
+  }
+
+  // Where several cameras look, others see the marker whole, and only what is not round is given
+  // the doubt: it may also be a disc that is seen obliquely.
+  bool MayBeHidden(const Dot& dot) const {
+    constexpr double kRound = 0.97;
+    return array_.cameras.size() == 1 || dot.occluded || dot.roundness() < kRound;
   }
 
   double Gate_px(double sigma_px) const {
     return std::max(*options_.match_px, options_.match_sigmas * sigma_px);
+  }
+  double Gate_px(const Candidate& candidate) const {
+    const double gate_px = Gate_px(candidate.sigma_px);
+    return second_chance_ ? std::max(gate_px, candidate.hidden_px) : gate_px;
   }
 
   bool IsReachable(double along_mm) const {
@@ -95,10 +117,19 @@ class Instant {
     return mirror.normal_in_stage.dot(point) < mirror.distance_mm;
   }
 
+  void PairAllViews() {
+    for (int first = 0; first < num_views(); ++first)
+      for (int second = first + 1; second < num_views(); ++second) PairViews(first, second);
+  }
+
   void PairViews(int first_view, int second_view) {
-    for (int i = first_of_view_[first_view]; i < first_of_view_[first_view + 1]; ++i)
+    for (int i = first_of_view_[first_view]; i < first_of_view_[first_view + 1]; ++i) {
+      if (matched_.contains(KeyOf(i))) continue;
       for (int k = first_of_view_[second_view]; k < first_of_view_[second_view + 1]; ++k)
-        if (Meet(candidates_[i], candidates_[k]) && !settled_.contains({i, k})) Grow(i, k);
+        if (!matched_.contains(KeyOf(k)) && Meet(candidates_[i], candidates_[k]) &&
+            !settled_.contains({i, k}))
+          Grow(i, k);
+    }
   }
 
   bool Meet(const Candidate& first, const Candidate& second) const {
@@ -106,8 +137,9 @@ class Instant {
     const auto meeting = MeetingOf(first.line, second.line);
     if (!meeting || !IsReachable(meeting->along_first_mm) || !IsReachable(meeting->along_second_mm))
       return false;
-    const double gate_mm = std::hypot(meeting->along_first_mm * first.sigma_rad,
-                                      meeting->along_second_mm * second.sigma_rad);
+    const double gate_mm =
+        std::hypot(meeting->along_first_mm * Gate_px(first) / first.px_of_rad,
+                   meeting->along_second_mm * Gate_px(second) / second.px_of_rad);
     return meeting->apart_mm < gate_mm && IsBeforeMirror(first.view, meeting->middle_mm) &&
            IsBeforeMirror(second.view, meeting->middle_mm);
   }
@@ -124,7 +156,7 @@ class Instant {
     for (const int member : members) {
       const Candidate& candidate = candidates_[member];
       const auto residual = candidate.line.Residual_px(point.point_in_stage_mm);
-      if (!residual || residual->norm() > Gate_px(candidate.sigma_px)) return false;
+      if (!residual || residual->norm() > Gate_px(candidate)) return false;
     }
     return true;
   }
@@ -267,6 +299,9 @@ class Instant {
   std::vector<Hypothesis> hypotheses_;
   std::set<std::vector<int>> known_;
   std::set<std::pair<int, int>> settled_;
+  // Dots that nothing met within their noise may be half hidden, and get a second chance.
+  std::set<DotKey> matched_;
+  bool second_chance_ = false;
 };
 
 RecordingSurvey SurveyOf(const std::vector<CloudPoint>& points, double widest_px) {
