@@ -13,10 +13,12 @@ namespace {
 constexpr const char* kHead =
     "# Where each marker sits on the speaker's head, mm, in a frame that is fixed to the skull, "
     "and how\n"
-    "# far it strays from there (standard deviation of a coordinate). Labels come from this.\n";
+    "# far it strays from there (standard deviation of a coordinate). Labels come from this.\n"
+    "# Of markers that a single view saw, the depth is estimated, to the length of "
+    "unmeasured_mm.\n";
 
 TemplateMarker ReadMarker(const TomlReader& reader) {
-  reader.AllowOnly({"name", "position_mm", "sigma_mm", "head"});
+  reader.AllowOnly({"name", "position_mm", "sigma_mm", "head", "unmeasured_mm"});
   TemplateMarker marker;
   marker.name = reader.Text("name");
   marker.position_mm = reader.Vector("position_mm");
@@ -26,19 +28,27 @@ TemplateMarker ReadMarker(const TomlReader& reader) {
     if (!head) reader.Fault("head", "must be true or false");
     marker.head_reference = head && head->get();
   }
+  if (reader.Has("unmeasured_mm")) marker.unmeasured_mm = reader.Vector("unmeasured_mm");
   if (marker.name.empty()) reader.Fault("name", "must not be empty");
   if (!marker.position_mm.allFinite()) reader.Fault("position_mm", "must be three finite numbers");
+  if (!marker.unmeasured_mm.allFinite())
+    reader.Fault("unmeasured_mm", "must be three finite numbers");
   if (!(marker.sigma_mm > 0)) reader.Fault("sigma_mm", "must be more than 0");
   return marker;
 }
 
+std::string VectorText(const Eigen::Vector3d& v) {
+  return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", v.x(), v.y(), v.z());
+}
+
 std::string MarkerTable(const TemplateMarker& marker) {
-  const Eigen::Vector3d& p = marker.position_mm;
-  return fmt::format(
-      "\n[[marker]]\nname = {}\nposition_mm = [{:.3f}, {:.3f}, {:.3f}]\n"
-      "sigma_mm = {:.3f}\n{}",
-      QuotedToml(marker.name), p.x(), p.y(), p.z(), marker.sigma_mm,
-      marker.head_reference ? "head = true\n" : "");
+  std::string text =
+      fmt::format("\n[[marker]]\nname = {}\nposition_mm = {}\nsigma_mm = {:.3f}\n",
+                  QuotedToml(marker.name), VectorText(marker.position_mm), marker.sigma_mm);
+  if (marker.head_reference) text += "head = true\n";
+  if (!marker.unmeasured_mm.isZero(0))
+    text += fmt::format("unmeasured_mm = {}\n", VectorText(marker.unmeasured_mm));
+  return text;
 }
 
 }  // namespace

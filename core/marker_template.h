@@ -22,6 +22,15 @@ struct TemplateMarker {
   // spectacles, some millimetres for lips; also how roughly a layout knows its place.
   double sigma_mm = 3;
   bool head_reference = false;  // moves with the skull
+  // Where only a single view ever saw it: along its line of sight the place is not measured but
+  // estimated, to this vector's length, SD. Zero where it is measured in all directions.
+  Eigen::Vector3d unmeasured_mm = Eigen::Vector3d::Zero();
+
+  // Of where the marker is at any time.
+  Eigen::Matrix3d covariance_mm2() const {
+    return sigma_mm * sigma_mm * Eigen::Matrix3d::Identity() +
+           unmeasured_mm * unmeasured_mm.transpose();
+  }
 
   bool operator==(const TemplateMarker&) const = default;
 };
@@ -34,6 +43,7 @@ struct TemplateMarker {
 //   position_mm = [1.2, -95.0, 60.1]
 //   sigma_mm = 5.0
 //   head = false                        # moves with the skull; optional
+//   unmeasured_mm = [0.5, 0.2, 4.0]     # optional
 struct MarkerTemplate {
   std::string name;
   std::string learnt_from;

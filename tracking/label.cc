@@ -174,7 +174,7 @@ LabelPriors PriorsOf(const PointClouds& clouds, const MarkerTemplate& marker_tem
         })));
   const double most = options.seen * static_cast<double>(marker_template.markers.size());
   constexpr double kLeast = 0.02, kMost = 0.6;
-  LabelPriors priors = {options.seen, options.false_points, kLeast};
+  LabelPriors priors = {options.seen, options.false_points, options.false_points, kLeast};
   if (!by_more_views.empty())
     priors.seen_by_one_view = std::clamp(1 - MedianOf(by_more_views) / most, kLeast, kMost);
   return priors;
@@ -193,21 +193,31 @@ int CountUnexplained(const std::vector<CloudPoint>& cloud, const std::vector<int
   return static_cast<int>(all.size() - explained.size());
 }
 
+int CountUnlabelledPairs(const std::vector<CloudPoint>& cloud, const std::vector<int>& labelled) {
+  const auto is_pair = [](const CloudPoint& point) { return point.sights.size() == 2; };
+  const auto pairs = std::count_if(cloud.begin(), cloud.end(), is_pair);
+  const auto named = std::count_if(labelled.begin(), labelled.end(),
+                                   [&](int point) { return point >= 0 && is_pair(cloud[point]); });
+  return static_cast<int>(pairs - named);
+}
+
 // What the first pass says about how many markers are seen, and how many points are false.
 LabelPriors LearnFrom(const PointClouds& clouds, const std::vector<LabelledFrame>& frames,
                       LabelPriors priors) {
-  int known = 0, expected = 0, unexplained = 0, counted = 0;
+  int known = 0, expected = 0, unexplained = 0, unlabelled_pairs = 0, counted = 0;
   for (std::size_t frame = 0; frame < frames.size(); ++frame) {
     if (!frames[frame].template_from_stage) continue;
     ++counted;
     known += frames[frame].num_labelled();
     expected += static_cast<int>(frames[frame].points.size());
     unexplained += CountUnexplained(clouds.frames[frame], frames[frame].points);
+    unlabelled_pairs += CountUnlabelledPairs(clouds.frames[frame], frames[frame].points);
   }
   if (counted == 0) return priors;
   constexpr double kLeastSeen = 0.5, kMostSeen = 0.99, kFewestFalse = 0.05;
   priors.seen = std::clamp(1.0 * known / expected, kLeastSeen, kMostSeen);
   priors.false_points = std::max(kFewestFalse, 1.0 * unexplained / counted);
+  priors.false_pairs = std::max(kFewestFalse, 1.0 * unlabelled_pairs / counted);
   return priors;
 }
 

@@ -34,8 +34,7 @@ int FindContradiction(const LabelCosts& costs, std::span<const CloudPoint> cloud
 std::vector<MarkerPlace> HomesOf(const MarkerTemplate& marker_template) {
   std::vector<MarkerPlace> homes;
   for (const TemplateMarker& marker : marker_template.markers)
-    homes.push_back(
-        {marker.position_mm, marker.sigma_mm * marker.sigma_mm * Eigen::Matrix3d::Identity()});
+    homes.push_back({marker.position_mm, marker.covariance_mm2()});
   return homes;
 }
 
@@ -48,17 +47,17 @@ bool ClaimOneDot(const CloudPoint& a, const CloudPoint& b) {
 
 LabelCosts CostsOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
                    const PoseEstimate& pose, const LabelPriors& priors) {
-  const double false_per_mm3 = std::max(priors.false_points, 1e-3) / std::pow(300.0, 3);
-  const double constant =
-      3 * std::log(2 * std::numbers::pi) + 2 * std::log(false_per_mm3) - 2 * std::log(priors.seen);
+  const double constant = 3 * std::log(2 * std::numbers::pi) - 2 * std::log(priors.seen);
   LabelCosts result;
   result.null_cost = -2 * std::log(1 - priors.seen);
   result.costs.setConstant(static_cast<int>(markers.size()), static_cast<int>(cloud.size()),
                            kInfinity);
   for (int p = 0; p < static_cast<int>(cloud.size()); ++p) {
     const Eigen::Vector3d position = pose.template_from_stage * cloud[p].position_in_stage_mm;
-    const double views =
-        cloud[p].sights.size() == 1 ? priors.seen_by_one_view : 1 - priors.seen_by_one_view;
+    const std::size_t sights = cloud[p].sights.size();
+    const double views = sights == 1 ? priors.seen_by_one_view : 1 - priors.seen_by_one_view;
+    const double false_per_mm3 =
+        std::max(sights == 2 ? priors.false_pairs : priors.false_points, 1e-3) / std::pow(300, 3);
     const Eigen::Matrix3d of_point = CovarianceInTemplate_mm2(cloud[p], pose.template_from_stage) +
                                      pose.CovarianceAt_mm2(position);
     for (int m = 0; m < static_cast<int>(markers.size()); ++m) {
@@ -70,7 +69,7 @@ LabelCosts CostsOf(std::span<const MarkerPlace> markers, std::span<const CloudPo
       const double log_determinant =
           2 * Eigen::Matrix3d(factor.matrixL()).diagonal().array().log().sum();
       result.costs(m, p) = factor.matrixL().solve(apart).squaredNorm() + log_determinant +
-                           constant - 2 * std::log(views);
+                           constant + 2 * std::log(false_per_mm3) - 2 * std::log(views);
     }
   }
   return result;

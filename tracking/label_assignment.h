@@ -26,6 +26,7 @@ struct LabelCosts {
 struct LabelPriors {
   double seen = 0.9;              // LabelOptions
   double false_points = 2;        // LabelOptions
+  double false_pairs = 2;         // of these, what two views see: rays meet by chance
   double seen_by_one_view = 0.1;  // part of what is seen
 };
 LabelCosts CostsOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,

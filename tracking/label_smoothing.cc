@@ -88,7 +88,6 @@ class BothSides {
 
   MarkerPlace Expect(int marker, int frame) const {
     const TemplateMarker& home = template_.markers[marker];
-    const double variance = home.sigma_mm * home.sigma_mm;
     std::vector<int> samples;
     for (const int sample : {before_[marker], after_[marker]})
       if (sample >= 0) samples.push_back(sample);
@@ -106,12 +105,13 @@ class BothSides {
     MarkerPlace place;
     place.position_mm = home.position_mm + strayed.transpose() * weights;
     const double left = std::max(0.0, 1 - here.dot(weights));
-    place.covariance_mm2 =
-        (variance * left + kLeastSigma_mm * kLeastSigma_mm) * Eigen::Matrix3d::Identity();
-    // What is not known of the samples themselves, as the depth of single sights.
+    place.covariance_mm2 = left * home.covariance_mm2() +
+                           kLeastSigma_mm * kLeastSigma_mm * Eigen::Matrix3d::Identity();
+    // What is not known of the samples themselves, as the depth of single sights: that is wrong in
+    // all of them alike.
     for (int i = 0; i < count; ++i)
       place.covariance_mm2 +=
-          weights[i] * weights[i] * frames_[samples[i]].places[marker].covariance_mm2;
+          weights.sum() * weights[i] * frames_[samples[i]].places[marker].covariance_mm2;
     return place;
   }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,7 +45,7 @@ std::vector<MarkerPlace> PlacesOf(const MarkerTemplate& layout, const Eigen::Mat
 
 LabelPriors PriorsOf(const LabelOptions& options) {
   constexpr double kSeenByOneView = 0.3;
-  return {options.seen, options.false_points, kSeenByOneView};
+  return {options.seen, options.false_points, options.false_points, kSeenByOneView};
 }
 
 // Bends the layout by the affine map that takes it nearest to what it found, as far as many markers
@@ -153,6 +154,12 @@ std::optional<ReferenceFit> SearchReference(const PointClouds& clouds, const Mar
   return best;
 }
 
+// The direction of which least is known, with its SD.
+Eigen::Vector3d LongestAxisOf_mm(const MarkerPlace& place) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(place.covariance_mm2);
+  return std::sqrt(axes.eigenvalues().z()) * axes.eigenvectors().col(2);
+}
+
 // The places that the frame itself shows; of markers that it does not, those of the bent layout.
 MarkerTemplate TemplateOf(const PointClouds& clouds, const MarkerTemplate& layout,
                           const ReferenceFit& fit) {
@@ -164,10 +171,10 @@ MarkerTemplate TemplateOf(const PointClouds& clouds, const MarkerTemplate& layou
     marker.position_mm = fit.places[m].position_mm;
     const int point = fit.head.points[m];
     if (point < 0) continue;
-    marker.position_mm =
-        PlaceOf(fit.places[m], cloud[point], fit.head.template_from_stage).position_mm;
-    if (cloud[point].sights.size() != 1)
-      marker.sigma_mm = marker.head_reference ? kRigidSigma_mm : kFaceSigma_mm;
+    const MarkerPlace place = PlaceOf(fit.places[m], cloud[point], fit.head.template_from_stage);
+    marker.position_mm = place.position_mm;
+    marker.sigma_mm = marker.head_reference ? kRigidSigma_mm : kFaceSigma_mm;
+    if (cloud[point].sights.size() == 1) marker.unmeasured_mm = LongestAxisOf_mm(place);
   }
   return result;
 }
@@ -198,6 +205,21 @@ double SpreadOf_mm(std::vector<double> values, double middle) {
       values.begin() + static_cast<std::ptrdiff_t>(kPart * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at / kNormal;
+}
+
+// In the template, where so many views or more saw the marker; points of a file count as seen by
+// all.
+std::vector<Eigen::Vector3d> PlacesOf(const PointClouds& clouds, const Labelling& labelling,
+                                      int marker, std::size_t least_views) {
+  std::vector<Eigen::Vector3d> places;
+  for (int frame = 0; frame < clouds.num_frames(); ++frame) {
+    const LabelledFrame& labelled = labelling.frames[frame];
+    if (!labelled.template_from_stage || labelled.points[marker] < 0) continue;
+    const auto& sights = clouds.frames[frame][labelled.points[marker]].sights;
+    if (sights.empty() || sights.size() >= least_views)
+      places.push_back(labelled.places[marker].position_mm);
+  }
+  return places;
 }
 
 }  // namespace
@@ -259,30 +281,31 @@ Result<MarkerTemplate> LearnTemplate(const PointClouds& clouds, const MarkerTemp
   const auto fit = SearchReference(clouds, layout, frames, attitudes, options);
   if (const auto clear = RefuseDoubtful(fit, layout); !clear) return tl::unexpected(clear.error());
   const MarkerTemplate first = TemplateOf(clouds, layout, *fit);
-  return RefineTemplate(first, LabelClouds(clouds, first, options));
+  return RefineTemplate(first, clouds, LabelClouds(clouds, first, options));
 }
 
-MarkerTemplate RefineTemplate(const MarkerTemplate& marker_template, const Labelling& labelling) {
+MarkerTemplate RefineTemplate(const MarkerTemplate& marker_template, const PointClouds& clouds,
+                              const Labelling& labelling) {
   // A take of a few sentences does not show all that a face can do.
   constexpr double kLeastSigma_mm = 0.5, kLeastFaceSigma_mm = 2;
   constexpr std::size_t kFewest = 20;
   MarkerTemplate refined = marker_template;
-  for (std::size_t m = 0; m < refined.markers.size(); ++m) {
-    std::array<std::vector<double>, 3> places;
-    for (const LabelledFrame& frame : labelling.frames)
-      if (frame.template_from_stage && frame.points[m] >= 0)
-        for (int axis = 0; axis < 3; ++axis)
-          places[axis].push_back(frame.places[m].position_mm[axis]);
-    if (places[0].size() < kFewest) continue;
+  for (int m = 0; m < static_cast<int>(refined.markers.size()); ++m) {
     TemplateMarker& marker = refined.markers[m];
-    double variance = 0;
+    std::vector<Eigen::Vector3d> places = PlacesOf(clouds, labelling, m, 2);
+    if (places.size() >= kFewest)
+      marker.unmeasured_mm.setZero();
+    else
+      places = PlacesOf(clouds, labelling, m, 1);
+    if (places.size() < kFewest) continue;
+    double spread_mm = marker.head_reference ? kLeastSigma_mm : kLeastFaceSigma_mm;
     for (int axis = 0; axis < 3; ++axis) {
-      marker.position_mm[axis] = MedianOf(places[axis]);
-      const double spread_mm = SpreadOf_mm(places[axis], marker.position_mm[axis]);
-      variance = std::max(variance, spread_mm * spread_mm);
+      std::vector<double> values;
+      for (const Eigen::Vector3d& place : places) values.push_back(place[axis]);
+      marker.position_mm[axis] = MedianOf(values);
+      spread_mm = std::max(spread_mm, SpreadOf_mm(values, marker.position_mm[axis]));
     }
-    marker.sigma_mm =
-        std::max(std::sqrt(variance), marker.head_reference ? kLeastSigma_mm : kLeastFaceSigma_mm);
+    marker.sigma_mm = spread_mm;
   }
   return refined;
 }

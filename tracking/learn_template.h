@@ -38,8 +38,10 @@ Result<MarkerTemplate> LearnTemplate(const PointClouds& clouds, const MarkerTemp
                                      std::span<const Eigen::Quaterniond> attitudes,
                                      const LabelOptions& options);
 
-// The template with the median places of a labelled take, and the spread about them; markers with
-// fewer than twenty samples keep what they had.
-MarkerTemplate RefineTemplate(const MarkerTemplate& marker_template, const Labelling& labelling);
+// The template with the median places of a labelled take, and the spread about them, from what two
+// views measured where there are twenty such samples; markers with fewer than twenty samples keep
+// what they had.
+MarkerTemplate RefineTemplate(const MarkerTemplate& marker_template, const PointClouds& clouds,
+                              const Labelling& labelling);
 
 }  // namespace articap

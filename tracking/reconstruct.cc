@@ -57,8 +57,8 @@ class Instant {
     PairAllViews();
     for (const Hypothesis& hypothesis : hypotheses_)
       for (const int member : hypothesis.members) matched_.insert(KeyOf(member));
-    second_chance_ = true;
-    PairAllViews();
+    second_chance_ = HalvesCount();
+    if (second_chance_) PairAllViews();
     std::set<DotKey> taken;
     std::vector<CloudPoint> points = Choose(taken);
     if (volume) AddSingleSights(*volume, taken, points);
@@ -77,8 +77,9 @@ class Instant {
       // Of its diameter, SD and the farthest: half of a disc has its middle 0.21 diameters aside.
       constexpr double kHidden = 0.1, kMostHidden = 0.25;
       const double diameter_px = dots[dot].diameter_px();
+      const bool is_hidden = dots[dot].occluded && HalvesCount();
       const double slack_px =
-          std::hypot(options_.calibration_px, dots[dot].occluded ? kHidden * diameter_px : 0);
+          std::hypot(options_.calibration_px, is_hidden ? kHidden * diameter_px : 0);
       const auto line = SightLineOf(array_, projection, dots[dot], slack_px);
       if (!line) continue;
       candidates_.push_back(
@@ -86,18 +87,14 @@ class Instant {
            .camera = projection.view.camera,
            .dot = dot,
            .sigma_px = std::sqrt(dots[dot].covariance_px2.trace() / 2 + slack_px * slack_px),
-           .hidden_px = MayBeHidden(dots[dot]) ? kMostHidden * diameter_px : 0,
+           .hidden_px = kMostHidden * diameter_px,
            .px_of_rad = std::min(lens.fx_px, lens.fy_px),
            .line = *line});
     }
   }
 
-  // Where several cameras look, others see the marker whole, and only what is not round is given
-  // the doubt: it may also be a disc that is seen obliquely.
-  bool MayBeHidden(const Dot& dot) const {
-    constexpr double kRound = 0.97;
-    return array_.cameras.size() == 1 || dot.occluded || dot.roundness() < kRound;
-  }
+  // Where several cameras look, others see a half-hidden marker whole.
+  bool HalvesCount() const { return array_.cameras.size() == 1; }
 
   double Gate_px(double sigma_px) const {
     return std::max(*options_.match_px, options_.match_sigmas * sigma_px);

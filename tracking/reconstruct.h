@@ -40,9 +40,9 @@ Result<void> CheckOptions(const ReconstructOptions& options);
 // Rays of two views that meet are a hypothesis, to which every other view adds the dot nearest to
 // where it would show the point. The hypotheses that most views agree on come first, then the one
 // with the least residual; each dot is one marker's. Pairs that only two views support stay beside
-// one another as alternatives where they claim the same dot: labels decide. Dots that meet none may
-// be half hidden, and are paired again within a quarter of their diameter: all of a single camera
-// and its mirrors, of several cameras those that are not round. Every dot that no more than one
+// one another as alternatives where they claim the same dot: labels decide. Dots of a single
+// camera with mirrors that meet none may be half hidden, and are paired again within a quarter of
+// their diameter. Every dot that no more than one
 // other view confirms is also there by itself, as far along its ray as the working volume, and with
 // its uncertainty.
 class Reconstructor {

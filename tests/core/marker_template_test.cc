@@ -12,7 +12,8 @@ using testing::HasSubstr;
 MarkerTemplate TwoMarkers() {
   return {"anna",
           "frame 7 of \"take01\"",
-          {{"brow", {1.25, 60, 80.5}, 0.75, true}, {"chin", {-0.5, -90, 70}, 6, false}}};
+          {{"brow", {1.25, 60, 80.5}, 0.75, true},
+           {"chin", {-0.5, -90, 70}, 6, false, {0.5, -0.25, 4}}}};
 }
 
 std::string ErrorOf(const std::string& toml) {
@@ -43,6 +44,7 @@ TEST(MarkerTemplateTest, FaultsAreNamed) {
   EXPECT_THAT(ErrorOf(marker + "sigma_mm = 0\n"), HasSubstr("sigma_mm"));
   EXPECT_THAT(ErrorOf(marker + "colour = 3\n"), HasSubstr("colour"));
   EXPECT_THAT(ErrorOf(marker + "head = \"yes\"\n"), HasSubstr("head"));
+  EXPECT_THAT(ErrorOf(marker + "unmeasured_mm = [1.0, inf, 3.0]\n"), HasSubstr("unmeasured_mm"));
   EXPECT_THAT(ErrorOf("[[marker]]\nname = \"a\"\nposition_mm = [nan, 2.0, 3.0]\n"),
               HasSubstr("position_mm"));
 }
