@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tracking/fill_gaps.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -29,8 +30,9 @@ std::vector<Gap> FillableGaps(const StageTracks& tracks, const std::vector<Gap>&
                               const FillOptions& options) {
   std::vector<Gap> fillable;
   for (const Gap& gap : gaps) {
-    const double longest_s =
-        IsAtEnd(gap, tracks.num_frames()) ? options.longest_at_end_s : options.longest_s;
+    const double longest_s = IsAtEnd(gap, tracks.num_frames())
+                                 ? std::min(options.longest_s, options.longest_at_end_s)
+                                 : options.longest_s;
     constexpr double kRounding = 1e-6;  // of a frame
     if (gap.length <= longest_s * tracks.rate_hz() + kRounding) fillable.push_back(gap);
   }
@@ -108,6 +110,24 @@ Result<StageResult<StageTracks>> FillGaps(const StageTracks& tracks, const FillO
   for (const Gap& gap : fillable) filler.Fill(gap);
   return StageResult<StageTracks>{filler.tracks(),
                                   ReportFills(tracks, gaps, filler.done(), options)};
+}
+
+Result<StageResult<MarkerRecording>> FillGaps(const MarkerRecording& recording,
+                                              const FillOptions& options) {
+  auto filled = FillGaps(recording.tracks, options);
+  if (!filled) return tl::unexpected(filled.error());
+  StageResult<MarkerRecording> result{recording, std::move(filled->report)};
+  std::size_t sample = 0;
+  for (int frame = 0; frame < recording.tracks.num_frames(); ++frame)
+    for (int marker = 0; marker < recording.tracks.num_markers(); ++marker, ++sample) {
+      const bool is_filled =
+          recording.tracks.is_missing(frame, marker) && !filled->output.is_missing(frame, marker);
+      if (!is_filled) continue;
+      if (!recording.residuals_mm.empty()) result.output.residuals_mm[sample] = 0;
+      if (!recording.camera_masks.empty()) result.output.camera_masks[sample] = 0;
+    }
+  result.output.tracks = std::move(filled->output);
+  return result;
 }
 
 }  // namespace articap

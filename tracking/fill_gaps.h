@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/marker_recording.h"
 #include "core/options.h"
 #include "core/report.h"
 #include "core/result.h"
@@ -12,7 +13,8 @@ struct FillOptions {
   // Longer gaps stay gaps; 0: all do. What fills a gap gets worse with its length: see
   // docs/tracking.md.
   double longest_s = 0.5;
-  // The same for gaps at the beginning and the end of the take, which are seen from one side only.
+  // The same, if it is less, for gaps at the beginning and the end of the take, which are seen from
+  // one side only.
   double longest_at_end_s = 0.25;
   // Off where the recording is in a frame that is fixed to the head already.
   bool follow_head = true;
@@ -32,5 +34,8 @@ Result<void> CheckOptions(const FillOptions& options);
 // Gaps at the ends of a take are filled if other markers can tell.
 Result<StageResult<StageTracks>> FillGaps(const StageTracks& tracks,
                                           const FillOptions& options = {});
+// The same of what a file holds: filled samples have a residual of 0, and no camera saw them.
+Result<StageResult<MarkerRecording>> FillGaps(const MarkerRecording& recording,
+                                              const FillOptions& options = {});
 
 }  // namespace articap

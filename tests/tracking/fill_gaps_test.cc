@@ -310,6 +310,25 @@ TEST(FillGapsTest, TheReportTellsWhatWasDone) {
   }
 }
 
+TEST(FillGapsTest, NoCameraSawWhatIsFilled) {
+  MarkerRecording recording{.tracks = OneMarker(100)};
+  recording.residuals_mm.assign(100, 0.2F);
+  recording.camera_masks.assign(100, 3);
+  Cut(recording.tracks, "alone", 50, 2);
+  for (const int frame : {50, 51}) {
+    recording.residuals_mm[frame] = std::nanf("");
+    recording.camera_masks[frame] = 0;
+  }
+  const auto result = FillGaps(recording);
+  ASSERT_TRUE(result);
+  ExpectOnlyFilled(recording.tracks, result->output.tracks);
+  EXPECT_EQ(CountMissing(result->output.tracks), 0);
+  EXPECT_EQ(result->output.residuals_mm[49], 0.2F);
+  EXPECT_EQ(result->output.residuals_mm[50], 0);
+  EXPECT_EQ(result->output.camera_masks[49], 3);
+  EXPECT_EQ(result->output.camera_masks[51], 0);
+}
+
 TEST(FillGapsTest, NegativeLengthsAreRefused) {
   const auto result = FillGaps(OneMarker(10), {.longest_s = -1});
   ASSERT_FALSE(result);
