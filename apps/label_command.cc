@@ -59,8 +59,9 @@ Result<std::vector<StageReport>> RunLabel(const LabelArguments& arguments) {
       "labelling", [&] { return LabelClouds(clouds, *marker_template, arguments.label); });
   StageReport report = DescribeLabelling(clouds, *marker_template, labelling, arguments.label);
   for (const std::string& warning : source->warnings) report.warnings.push_back(warning);
-  const auto filled =
-      FillGaps(RecordingOf(*source, clouds, *marker_template, labelling), arguments.fill);
+  const auto filled = WithProgress("filling gaps", [&] {
+    return FillGaps(RecordingOf(*source, clouds, *marker_template, labelling), arguments.fill);
+  });
   if (!filled) return tl::unexpected(filled.error());
   const MarkerRecording& labelled = filled->output;
   if (const auto limit = LimitExceeded(labelled, *format))

@@ -215,9 +215,11 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   if (!tracked) return tl::unexpected(tracked.error());
   StageReport report = DescribeLabelling(tracked->clouds, tracked->marker_template,
                                          tracked->labelling, arguments.label);
-  const auto filled =
-      FillGaps(RecordingOf(tracked->clouds, tracked->marker_template, tracked->labelling, *array),
-               arguments.fill);
+  const auto filled = WithProgress("filling gaps", [&] {
+    return FillGaps(
+        RecordingOf(tracked->clouds, tracked->marker_template, tracked->labelling, *array),
+        arguments.fill);
+  });
   if (!filled) return tl::unexpected(filled.error());
   const MarkerRecording& markers = filled->output;
   if (const auto limit = LimitExceeded(markers, *format))

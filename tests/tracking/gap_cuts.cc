@@ -84,6 +84,7 @@ void GapErrors::Add(const StageTracks& whole, const std::vector<Gap>& cut,
   constexpr int kSplineFrames = 8;
   for (const Gap& gap : cut) {
     ++gaps;
+    double over_variance_of_gap = 0;
     const Eigen::MatrixXd spline_mm =
         SplineWeights(gap.length, kSplineFrames) * Beside(whole, gap, kSplineFrames);
     const Eigen::MatrixXd beside_mm = Beside(whole, gap, 2);
@@ -103,8 +104,10 @@ void GapErrors::Add(const StageTracks& whole, const std::vector<Gap>& cut,
       const double error_mm2 =
           (filled.position_mm(frame, gap.marker).transpose() - truth_mm).squaredNorm();
       filled_mm2 += error_mm2;
-      over_variance += error_mm2 / 3 / std::pow(filled.sigma_mm(frame, gap.marker), 2);
+      over_variance_of_gap += error_mm2 / 3 / std::pow(filled.sigma_mm(frame, gap.marker), 2);
     }
+    over_variance += over_variance_of_gap;
+    far_off += over_variance_of_gap > 9 * gap.length;
   }
 }
 

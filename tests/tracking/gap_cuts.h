@@ -28,6 +28,7 @@ struct GapErrors {
   double cubic_mm2 = 0;   // Hermite, with the slopes of the last two frames on either side
   double spline_mm2 = 0;  // cubic spline through eight frames on either side
   double filled_mm2 = 0;
+  int far_off = 0;           // gaps whose RMS error is more than three of their standard deviations
   double over_variance = 0;  // sum of squared errors of a coordinate over their estimated variances
 
   void Add(const StageTracks& whole, const std::vector<Gap>& cut, const StageTracks& filled);

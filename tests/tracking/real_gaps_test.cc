@@ -57,10 +57,11 @@ void CutAndFill(const RealTake& take, const std::vector<int>& markers, int lengt
 void Print(const std::string& what, int length, const GapErrors& errors) {
   std::cout << fmt::format(
       "{:<22} {:2} frames {:4} gaps: linear {:.4f} cubic {:.4f} spline {:.4f} filled {:.4f} mm, "
-      "{:.3f} of cubic, normalised {:.2f}\n",
+      "{:.3f} of cubic, normalised {:.2f}, {} far off\n",
       what, length, errors.gaps, errors.Rms(errors.linear_mm2), errors.Rms(errors.cubic_mm2),
       errors.Rms(errors.spline_mm2), errors.Rms(errors.filled_mm2),
-      errors.Rms(errors.filled_mm2) / errors.Rms(errors.cubic_mm2), errors.NormalisedRms());
+      errors.Rms(errors.filled_mm2) / errors.Rms(errors.cubic_mm2), errors.NormalisedRms(),
+      errors.far_off);
 }
 
 // From the longest gap that interpolation does well to the longest that is filled.
@@ -75,6 +76,7 @@ class RealGapsTest : public testing::TestWithParam<int> {
     EXPECT_LE(errors.Rms(errors.filled_mm2), ratio * errors.Rms(errors.spline_mm2));
     EXPECT_GE(errors.NormalisedRms(), 0.7);
     EXPECT_LE(errors.NormalisedRms(), 1.4);
+    EXPECT_LE(errors.far_off, 0.02 * errors.gaps);
   }
 };
 
