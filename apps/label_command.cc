@@ -11,6 +11,7 @@
 #include "apps/progress.h"
 #include "apps/template_input.h"
 #include "apps/verbs.h"
+#include "tracking/fill_gaps.h"
 #include "tracking/labelled_markers.h"
 #include "tracking/learn_template.h"
 
@@ -22,6 +23,7 @@ struct LabelArguments {
   TemplateInput naming;
   MarkerReadOptions read;
   LabelOptions label;
+  FillOptions fill;
 };
 
 // Of a recording whose cameras nobody knows: the axes that laboratories use, the speaker looking
@@ -42,6 +44,8 @@ std::vector<Eigen::Quaterniond> AttitudesOfLaboratories() {
 }
 
 Result<std::vector<StageReport>> RunLabel(const LabelArguments& arguments) {
+  if (const auto checked = CheckOptions(arguments.fill); !checked)
+    return tl::unexpected(checked.error());
   const Result<MarkerFormat> format = MarkerFormatOf(arguments.output);
   if (!format) return tl::unexpected(format.error());
   const Result<MarkerRecording> source = ReadMarkers(arguments.input, arguments.read);
@@ -55,12 +59,16 @@ Result<std::vector<StageReport>> RunLabel(const LabelArguments& arguments) {
       "labelling", [&] { return LabelClouds(clouds, *marker_template, arguments.label); });
   StageReport report = DescribeLabelling(clouds, *marker_template, labelling, arguments.label);
   for (const std::string& warning : source->warnings) report.warnings.push_back(warning);
-  const MarkerRecording labelled = RecordingOf(*source, clouds, *marker_template, labelling);
+  const auto filled = WithProgress("filling gaps", [&] {
+    return FillGaps(RecordingOf(*source, clouds, *marker_template, labelling), arguments.fill);
+  });
+  if (!filled) return tl::unexpected(filled.error());
+  const MarkerRecording& labelled = filled->output;
   if (const auto limit = LimitExceeded(labelled, *format))
     return Fail(fmt::format("{} has {}; write another format", arguments.input, *limit));
   OutputSet outputs;
   outputs.Add(arguments.output, FormatMarkers(labelled, *format));
-  outputs.Add(Beside(arguments.output, ".report.json"), ReportsToJson({report}));
+  outputs.Add(Beside(arguments.output, ".report.json"), ReportsToJson({report, filled->report}));
   if (arguments.naming.known.empty())
     outputs.Add(Beside(arguments.output, ".template.toml"), WriteMarkerTemplate(*marker_template));
   if (const auto allowed = outputs.RefuseToOverwrite(
@@ -69,7 +77,7 @@ Result<std::vector<StageReport>> RunLabel(const LabelArguments& arguments) {
     return tl::unexpected(allowed.error());
   if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
   for (const std::string& loss : LossesOf(labelled, *format)) report.warnings.push_back(loss);
-  return std::vector<StageReport>{report};
+  return std::vector<StageReport>{report, filled->report};
 }
 
 }  // namespace
@@ -78,8 +86,8 @@ ExitCode LabelCommand(const std::vector<std::string>& arguments) {
   VerbLine line(
       "articap label",
       "Names the markers of a recording that has no labels, or wrong ones, by where they\n"
-      "sit on the head. What was learnt of the speaker goes to OUT's stem +\n"
-      ".template.toml, and labels further takes; the report to .report.json.",
+      "sit on the head, and fills their short gaps. What was learnt of the speaker goes to\n"
+      "OUT's stem + .template.toml, and labels further takes; the report to .report.json.",
       "articap label take01.c3d take01.labelled.c3d --map spectacles30");
   LabelArguments values;
   line.Argument("IN", values.input, "marker file; the names in it are not regarded");
@@ -87,6 +95,7 @@ ExitCode LabelCommand(const std::vector<std::string>& arguments) {
   AddTemplateInput(line, values.naming);
   line.Stage("read", values.read);
   line.Stage("label", values.label);
+  line.Stage("fill", values.fill, "fill");
   if (const auto exit = line.Parse(arguments)) return *exit;
   values.config = line.config_path();
   const auto reports = RunLabel(values);

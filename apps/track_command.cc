@@ -15,6 +15,7 @@
 #include "core/camera_io.h"
 #include "core/marker_io.h"
 #include "tracking/dot_detector.h"
+#include "tracking/fill_gaps.h"
 #include "tracking/labelled_markers.h"
 #include "tracking/learn_template.h"
 #include "tracking/reconstruct.h"
@@ -32,12 +33,14 @@ struct TrackArguments {
   SynchronizeOptions synchronize;
   ReconstructOptions reconstruct;
   LabelOptions label;
+  FillOptions fill;
 };
 
 Result<void> CheckOptions(const TrackArguments& arguments) {
   if (auto checked = CheckOptions(arguments.detect); !checked) return checked;
   if (auto checked = CheckOptions(arguments.synchronize); !checked) return checked;
   if (auto checked = CheckOptions(arguments.reconstruct); !checked) return checked;
+  if (auto checked = CheckOptions(arguments.fill); !checked) return checked;
   return CheckOptions(arguments.label);
 }
 
@@ -212,13 +215,19 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   if (!tracked) return tl::unexpected(tracked.error());
   StageReport report = DescribeLabelling(tracked->clouds, tracked->marker_template,
                                          tracked->labelling, arguments.label);
-  const MarkerRecording markers =
-      RecordingOf(tracked->clouds, tracked->marker_template, tracked->labelling, *array);
+  const auto filled = WithProgress("filling gaps", [&] {
+    return FillGaps(
+        RecordingOf(tracked->clouds, tracked->marker_template, tracked->labelling, *array),
+        arguments.fill);
+  });
+  if (!filled) return tl::unexpected(filled.error());
+  const MarkerRecording& markers = filled->output;
   if (const auto limit = LimitExceeded(markers, *format))
     return Fail(fmt::format("the recording has {}; write another format", *limit));
   OutputSet outputs;
   outputs.Add(arguments.output, FormatMarkers(markers, *format));
-  outputs.Add(Beside(arguments.output, ".report.json"), ReportsToJson({detection, report}));
+  outputs.Add(Beside(arguments.output, ".report.json"),
+              ReportsToJson({detection, report, filled->report}));
   if (arguments.naming.known.empty())
     outputs.Add(Beside(arguments.output, ".template.toml"),
                 WriteMarkerTemplate(tracked->marker_template));
@@ -230,7 +239,7 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
     return tl::unexpected(allowed.error());
   if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
   for (const std::string& loss : LossesOf(markers, *format)) report.warnings.push_back(loss);
-  return std::vector<StageReport>{detection, report};
+  return std::vector<StageReport>{detection, report, filled->report};
 }
 
 }  // namespace
@@ -255,6 +264,7 @@ ExitCode TrackCommand(const std::vector<std::string>& arguments) {
   line.Stage("synchronize", values.synchronize);
   line.Stage("reconstruct", values.reconstruct);
   line.Stage("label", values.label);
+  line.Stage("fill", values.fill, "fill");
   if (const auto exit = line.Parse(arguments)) return *exit;
   values.config = line.config_path();
   const auto reports = RunTrack(values);
