@@ -4,6 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "tracking/rigidity.h"
+
 namespace articap {
 namespace {
 
@@ -23,8 +26,11 @@ class BothSides {
         memory_s_(memory_s),
         frames_(frames),
         center_mm_(MiddleOf(HomesOf(marker_template))),
+        restlessness_(marker_template.markers.size(), 1),
         before_(marker_template.markers.size(), -1),
-        after_(marker_template.markers.size(), -1) {}
+        after_(marker_template.markers.size(), -1) {
+    LearnRestlessness();
+  }
 
   // From one end to the other, so that what a frame gains helps the next.
   void Sweep(bool forwards) {
@@ -43,6 +49,35 @@ class BothSides {
   }
 
  private:
+  // How much less a marker moves from frame to frame than the process would, which knows no
+  // velocity: from samples between two others, all of them seen by two views or more.
+  void LearnRestlessness() {
+    constexpr std::size_t kFewest = 20;
+    constexpr double kCalmest = 0.1;
+    for (int m = 0; m < static_cast<int>(restlessness_.size()); ++m) {
+      std::vector<double> ratios;
+      for (int frame = 1; frame + 1 < clouds_.num_frames(); ++frame) {
+        if (!IsMeasured(frame - 1, m) || !IsMeasured(frame, m) || !IsMeasured(frame + 1, m))
+          continue;
+        before_[m] = frame - 1;
+        after_[m] = frame + 1;
+        const MarkerPlace expected = Expect(m, frame);
+        ratios.push_back(
+            (frames_[frame].places[m].position_mm - expected.position_mm).squaredNorm() /
+            expected.covariance_mm2.trace());
+      }
+      // The median of a chi-squared variable of three degrees of freedom, each.
+      constexpr double kMedian = 2.366 / 3;
+      if (ratios.size() >= kFewest)
+        restlessness_[m] = std::clamp(MedianOf(ratios) / kMedian, kCalmest, 1.0);
+    }
+  }
+
+  bool IsMeasured(int frame, int marker) const {
+    return IsLabelled(frame, marker) &&
+           clouds_.frames[frame][frames_[frame].points[marker]].sights.size() != 1;
+  }
+
   // The next frame beyond this one in which each marker is labelled; -1 for none.
   void FindNext(int frame, int step, std::vector<int>& next) const {
     const int count = clouds_.num_frames();
@@ -105,7 +140,7 @@ class BothSides {
     MarkerPlace place;
     place.position_mm = home.position_mm + strayed.transpose() * weights;
     const double left = std::max(0.0, 1 - here.dot(weights));
-    place.covariance_mm2 = left * home.covariance_mm2() +
+    place.covariance_mm2 = restlessness_[marker] * left * home.covariance_mm2() +
                            kLeastSigma_mm * kLeastSigma_mm * Eigen::Matrix3d::Identity();
     // What is not known of the samples themselves, as the depth of single sights: that is wrong in
     // all of them alike.
@@ -121,6 +156,8 @@ class BothSides {
   double memory_s_;
   std::vector<LabelledFrame>& frames_;
   Eigen::Vector3d center_mm_;
+  // By marker: variance about the mean of the process, over what its covariance says.
+  std::vector<double> restlessness_;
   // By marker: the nearest labelled frames of the one that is being labelled; -1 for none.
   std::vector<int> before_, after_;
 };

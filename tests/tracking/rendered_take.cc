@@ -39,7 +39,8 @@ SyntheticTake SpeakerOf(const RenderedTakeOptions& options, const FaceRig& head)
 
 }  // namespace
 
-RenderedTake::Owner RenderedTake::OwnerOf(int frame, int camera, const Dot& dot) const {
+RenderedTake::Owner RenderedTake::OwnerOf(int frame, int camera, const Dot& dot,
+                                          int expected) const {
   Owner owner;
   double least_px = dot.diameter_px() / 2;
   for (std::size_t view = 0; view < views.size(); ++view) {
@@ -48,8 +49,10 @@ RenderedTake::Owner RenderedTake::OwnerOf(int frame, int camera, const Dot& dot)
       const DotTruth& truth = in_views[frame][view][marker];
       const double apart_px = (truth.center_px - dot.center_px).norm();
       if (!(truth.visible > 0 && apart_px < least_px)) continue;
-      least_px = apart_px;
       owner = {marker, truth.visible};
+      least_px = apart_px;
+      // Another may hide beside it.
+      if (marker == expected && apart_px < dot.diameter_px() / 4) return owner;
     }
   }
   return owner;

@@ -42,7 +42,8 @@ struct RenderedTake {
     int marker = -1;  // nobody's
     double visible = 0;
   };
-  Owner OwnerOf(int frame, int camera, const Dot& dot) const;
+  // The marker nearest to a dot; `expected` if it is within a quarter of the diameter.
+  Owner OwnerOf(int frame, int camera, const Dot& dot, int expected) const;
   // In how many views at least such a part of the marker is seen.
   int CountViews(int frame, int marker, double least_visible) const;
 };
