@@ -174,6 +174,7 @@ Result<SyntheticTake> SynthesizeTake(const FaceRig& rig, const MarkerSet& marker
     take.identity.push_back({rig.definition().identity_sliders[i].name, (*identity)[i]});
   take.true_attachments = *std::move(attachments);
   take.marker_set = marker_set;
+  if (options.speaker_ahead && marker_set.axes) take.marker_set.axes = DeclaredAxes{};
   take.options = EchoOptions(options);
   take.markers.tracks = MoveMarkers(speaker, take);
   take.markers.source_unit = "mm";
