@@ -9,6 +9,7 @@
 #include "apps/output_names.h"
 #include "apps/output_set.h"
 #include "apps/progress.h"
+#include "apps/review_outputs.h"
 #include "apps/template_input.h"
 #include "apps/verbs.h"
 #include "tracking/fill_gaps.h"
@@ -68,7 +69,9 @@ Result<std::vector<StageReport>> RunLabel(const LabelArguments& arguments) {
     return Fail(fmt::format("{} has {}; write another format", arguments.input, *limit));
   OutputSet outputs;
   outputs.Add(arguments.output, FormatMarkers(labelled, *format));
-  outputs.Add(Beside(arguments.output, ".report.json"), ReportsToJson({report, filled->report}));
+  const TakeReview review = ReviewOf(clouds, labelling, labelled);
+  AddReview(arguments.output, review, DoubtsOf(review, labelling, labelled.tracks),
+            {report, filled->report}, {}, outputs);
   if (arguments.naming.known.empty())
     outputs.Add(Beside(arguments.output, ".template.toml"), WriteMarkerTemplate(*marker_template));
   if (const auto allowed = outputs.RefuseToOverwrite(

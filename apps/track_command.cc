@@ -10,6 +10,7 @@
 #include "apps/output_names.h"
 #include "apps/output_set.h"
 #include "apps/progress.h"
+#include "apps/review_outputs.h"
 #include "apps/template_input.h"
 #include "apps/verbs.h"
 #include "core/camera_io.h"
@@ -178,6 +179,7 @@ Result<std::vector<DetectedVideo>> DetectVideos(const TrackArguments& arguments,
 }
 
 struct TrackedMarkers {
+  SynchronizedDots dots;
   PointClouds clouds;
   MarkerTemplate marker_template;
   Labelling labelling;
@@ -187,10 +189,10 @@ Result<TrackedMarkers> Follow(const TrackArguments& arguments, const CameraArray
                               const std::vector<DetectedVideo>& detected) {
   std::vector<DotVideo> videos;
   for (const DetectedVideo& one : detected) videos.push_back(one.video);
-  const SynchronizedDots dots = Synchronize(array, videos, arguments.synchronize);
   TrackedMarkers result;
-  result.clouds = {dots.rate_hz, 1, dots.start,
-                   Reconstruct(array, dots.instants, arguments.reconstruct)};
+  result.dots = Synchronize(array, videos, arguments.synchronize);
+  result.clouds = {result.dots.rate_hz, 1, result.dots.start,
+                   Reconstruct(array, result.dots.instants, arguments.reconstruct)};
   Result<MarkerTemplate> marker_template =
       TemplateFor(arguments.naming, result.clouds, LikelyAttitudes(array), arguments.label);
   if (!marker_template) return tl::unexpected(marker_template.error());
@@ -224,10 +226,12 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   const MarkerRecording& markers = filled->output;
   if (const auto limit = LimitExceeded(markers, *format))
     return Fail(fmt::format("the recording has {}; write another format", *limit));
+  const TakeReview review =
+      ReviewOf(tracked->clouds, tracked->labelling, markers, *array, tracked->dots.instants);
+  const std::vector<Doubt> doubts = DoubtsOf(review, tracked->labelling, markers.tracks);
   OutputSet outputs;
   outputs.Add(arguments.output, FormatMarkers(markers, *format));
-  outputs.Add(Beside(arguments.output, ".report.json"),
-              ReportsToJson({detection, report, filled->report}));
+  AddReview(arguments.output, review, doubts, {detection, report, filled->report}, {}, outputs);
   if (arguments.naming.known.empty())
     outputs.Add(Beside(arguments.output, ".template.toml"),
                 WriteMarkerTemplate(tracked->marker_template));
