@@ -71,7 +71,7 @@ Result<std::vector<StageReport>> RunLabel(const LabelArguments& arguments) {
   outputs.Add(arguments.output, FormatMarkers(labelled, *format));
   const TakeReview review = ReviewOf(clouds, labelling, labelled);
   AddReview(arguments.output, review, DoubtsOf(review, labelling, labelled.tracks),
-            {report, filled->report}, {}, outputs);
+            {report, filled->report}, outputs);
   if (arguments.naming.known.empty())
     outputs.Add(Beside(arguments.output, ".template.toml"), WriteMarkerTemplate(*marker_template));
   if (const auto allowed = outputs.RefuseToOverwrite(

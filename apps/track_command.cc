@@ -12,6 +12,7 @@
 #include "apps/progress.h"
 #include "apps/review_outputs.h"
 #include "apps/template_input.h"
+#include "apps/track_pictures.h"
 #include "apps/verbs.h"
 #include "core/camera_io.h"
 #include "core/marker_io.h"
@@ -35,6 +36,7 @@ struct TrackArguments {
   ReconstructOptions reconstruct;
   LabelOptions label;
   FillOptions fill;
+  ShowOptions show;
 };
 
 Result<void> CheckOptions(const TrackArguments& arguments) {
@@ -42,6 +44,7 @@ Result<void> CheckOptions(const TrackArguments& arguments) {
   if (auto checked = CheckOptions(arguments.synchronize); !checked) return checked;
   if (auto checked = CheckOptions(arguments.reconstruct); !checked) return checked;
   if (auto checked = CheckOptions(arguments.fill); !checked) return checked;
+  if (auto checked = CheckOptions(arguments.show); !checked) return checked;
   return CheckOptions(arguments.label);
 }
 
@@ -179,6 +182,7 @@ Result<std::vector<DetectedVideo>> DetectVideos(const TrackArguments& arguments,
 }
 
 struct TrackedMarkers {
+  std::vector<DotVideo> videos;
   SynchronizedDots dots;
   PointClouds clouds;
   MarkerTemplate marker_template;
@@ -187,10 +191,9 @@ struct TrackedMarkers {
 
 Result<TrackedMarkers> Follow(const TrackArguments& arguments, const CameraArray& array,
                               const std::vector<DetectedVideo>& detected) {
-  std::vector<DotVideo> videos;
-  for (const DetectedVideo& one : detected) videos.push_back(one.video);
   TrackedMarkers result;
-  result.dots = Synchronize(array, videos, arguments.synchronize);
+  for (const DetectedVideo& one : detected) result.videos.push_back(one.video);
+  result.dots = Synchronize(array, result.videos, arguments.synchronize);
   result.clouds = {result.dots.rate_hz, 1, result.dots.start,
                    Reconstruct(array, result.dots.instants, arguments.reconstruct)};
   Result<MarkerTemplate> marker_template =
@@ -199,6 +202,43 @@ Result<TrackedMarkers> Follow(const TrackArguments& arguments, const CameraArray
   result.marker_template = std::move(*marker_template);
   result.labelling = LabelClouds(result.clouds, result.marker_template, arguments.label);
   return result;
+}
+
+// What else the inputs are beside the videos and the calibration.
+std::vector<std::filesystem::path> InputsOf(const TrackArguments& arguments) {
+  std::vector<std::filesystem::path> inputs = InputFiles(arguments.paths, {arguments.cameras});
+  for (const std::string& input :
+       {arguments.naming.known, arguments.naming.layout, arguments.config})
+    inputs.emplace_back(input);
+  return inputs;
+}
+
+Result<void> WriteTracked(const TrackArguments& arguments, const CameraArray& array,
+                          const TrackedMarkers& tracked, const MarkerRecording& markers,
+                          MarkerFormat format, const std::vector<StageReport>& reports) {
+  const auto& instants = tracked.dots.instants;
+  const StageTracks& tracks = markers.tracks;
+  const TakeReview review = ReviewOf(tracked.clouds, tracked.labelling, markers, array, instants);
+  const PicturedTake take = {
+      .array = array,
+      .videos = tracked.videos,
+      .open = [&] { return OpenVideosOf(array, arguments.paths); },
+      .names = tracks.names(),
+      .marks = {array, tracked.clouds, tracked.labelling, tracks, review, instants},
+      .rate_hz = tracks.rate_hz(),
+      .start = tracks.start(),
+      .first_frame = tracks.first_frame()};
+  OutputSet outputs;
+  outputs.Add(arguments.output, FormatMarkers(markers, format));
+  if (arguments.naming.known.empty())
+    outputs.Add(Beside(arguments.output, ".template.toml"),
+                WriteMarkerTemplate(tracked.marker_template));
+  const auto shown =
+      AddReview(arguments.output, review, DoubtsOf(review, tracked.labelling, tracks), reports,
+                take, arguments.show, outputs);
+  if (!shown) return shown;
+  if (auto allowed = outputs.RefuseToOverwrite(InputsOf(arguments)); !allowed) return allowed;
+  return outputs.Commit();
 }
 
 Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
@@ -226,24 +266,12 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   const MarkerRecording& markers = filled->output;
   if (const auto limit = LimitExceeded(markers, *format))
     return Fail(fmt::format("the recording has {}; write another format", *limit));
-  const TakeReview review =
-      ReviewOf(tracked->clouds, tracked->labelling, markers, *array, tracked->dots.instants);
-  const std::vector<Doubt> doubts = DoubtsOf(review, tracked->labelling, markers.tracks);
-  OutputSet outputs;
-  outputs.Add(arguments.output, FormatMarkers(markers, *format));
-  AddReview(arguments.output, review, doubts, {detection, report, filled->report}, {}, outputs);
-  if (arguments.naming.known.empty())
-    outputs.Add(Beside(arguments.output, ".template.toml"),
-                WriteMarkerTemplate(tracked->marker_template));
-  std::vector<std::filesystem::path> inputs = InputFiles(arguments.paths, {arguments.cameras});
-  for (const std::string& input :
-       {arguments.naming.known, arguments.naming.layout, arguments.config})
-    inputs.emplace_back(input);
-  if (const auto allowed = outputs.RefuseToOverwrite(inputs); !allowed)
-    return tl::unexpected(allowed.error());
-  if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
   for (const std::string& loss : LossesOf(markers, *format)) report.warnings.push_back(loss);
-  return std::vector<StageReport>{detection, report, filled->report};
+  const std::vector<StageReport> reports = {detection, report, filled->report};
+  if (const auto written = WriteTracked(arguments, *array, *tracked, markers, *format, reports);
+      !written)
+    return tl::unexpected(written.error());
+  return reports;
 }
 
 }  // namespace
@@ -269,6 +297,7 @@ ExitCode TrackCommand(const std::vector<std::string>& arguments) {
   line.Stage("reconstruct", values.reconstruct);
   line.Stage("label", values.label);
   line.Stage("fill", values.fill, "fill");
+  line.Stage("show", values.show);
   if (const auto exit = line.Parse(arguments)) return *exit;
   values.config = line.config_path();
   const auto reports = RunTrack(values);

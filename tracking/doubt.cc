@@ -48,13 +48,14 @@ void AddMargins(const TakeReview& review, const DoubtLimits& limits, std::vector
     for (int frame = 0; frame < review.num_frames; ++frame) {
       const double margin = review.markers[m].margins[frame];
       if (!(margin < limits.margin)) continue;
-      doubts.push_back({.kind = DoubtKind::kMargin,
-                        .frame = frame,
-                        .first = frame,
-                        .last = frame,
-                        .marker = static_cast<int>(m),
-                        .score = 1 + (limits.margin - margin) / limits.margin,
-                        .why = fmt::format("another label is nearly as likely, margin {:.1f}", margin)});
+      doubts.push_back(
+          {.kind = DoubtKind::kMargin,
+           .frame = frame,
+           .first = frame,
+           .last = frame,
+           .marker = static_cast<int>(m),
+           .score = 1 + (limits.margin - margin) / limits.margin,
+           .why = fmt::format("another label is nearly as likely, margin {:.1f}", margin)});
     }
 }
 

@@ -4,20 +4,13 @@ import {element, formatFixed, formatNumber} from '../src/text.js';
 
 import {frameText, part} from './parts.js';
 
-const kKinds = {
-  swap: 'labels exchanged',
-  margin: 'label not sure',
-  residual: 'views disagree',
-  fill: 'not seen',
-};
-
 function card(doubt, picture, review) {
   return element(
       'figure', {class: 'card doubt'},
       element(
           'h3', {}, doubt.marker, element('span', {class: 'aside'}, ` ${frameText(doubt.frame, review)}`)),
       element('img', {src: picture, alt: `${doubt.marker} in frame ${doubt.frame}, by view`}),
-      element('figcaption', {}, element('b', {}, kKinds[doubt.kind]), ` · ${doubt.why}`));
+      element('figcaption', {}, doubt.why));
 }
 
 function row(doubt, review) {
@@ -26,7 +19,6 @@ function row(doubt, review) {
       'tr', {}, element('td', {}, frames),
       element('td', {}, formatFixed((doubt.frame - review.first_frame) / review.rate_hz, 2)),
       element('td', {class: 'text'}, doubt.marker),
-      element('td', {class: 'text'}, kKinds[doubt.kind]),
       element('td', {class: 'text'}, doubt.why), element('td', {}, formatFixed(doubt.score, 1)));
 }
 
@@ -36,8 +28,8 @@ export function doubtsPart(review, pictures) {
     return part('doubts', 'Doubtful frames', 'There are none: no residual, margin, exchange or ' +
         'gap that is out of the usual.');
   const inTime = [...doubts].sort((a, b) => a.frame - b.frame);
-  const heads = ['frames', 'time, s', 'marker', 'what', 'why', 'doubt'].map(
-      (name, i) => element('th', i > 1 && i < 5 ? {class: 'text'} : {}, name));
+  const heads = ['frames', 'time, s', 'marker', 'why', 'doubt'].map(
+      (name, i) => element('th', i > 1 && i < 4 ? {class: 'text'} : {}, name));
   const list = element(
       'details', pictures.length === 0 ? {open: true} : {},
       element('summary', {}, `All ${formatNumber(doubts.length)} in the order of time`),
