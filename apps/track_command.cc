@@ -7,6 +7,7 @@
 
 #include "apps/calibrate_input.h"
 #include "apps/camera_input.h"
+#include "apps/corrections_input.h"
 #include "apps/output_names.h"
 #include "apps/output_set.h"
 #include "apps/progress.h"
@@ -16,6 +17,7 @@
 #include "apps/verbs.h"
 #include "core/camera_io.h"
 #include "core/marker_io.h"
+#include "tracking/apply_corrections.h"
 #include "tracking/dot_detector.h"
 #include "tracking/fill_gaps.h"
 #include "tracking/labelled_markers.h"
@@ -26,9 +28,11 @@
 namespace articap {
 namespace {
 
+constexpr int kFirstFrame = 1;  // of what is written, by C3D's custom
+
 struct TrackArguments {
   std::vector<std::string> paths;
-  std::string output, cameras, config;
+  std::string output, cameras, config, corrections;
   TemplateInput naming;
   CameraReadOptions read;
   DotDetectorOptions detect;
@@ -190,17 +194,22 @@ struct TrackedMarkers {
 };
 
 Result<TrackedMarkers> Follow(const TrackArguments& arguments, const CameraArray& array,
-                              const std::vector<DetectedVideo>& detected) {
+                              const std::vector<DetectedVideo>& detected,
+                              AppliedCorrections& corrections) {
   TrackedMarkers result;
   for (const DetectedVideo& one : detected) result.videos.push_back(one.video);
   result.dots = Synchronize(array, result.videos, arguments.synchronize);
-  result.clouds = {result.dots.rate_hz, 1, result.dots.start,
+  corrections.CorrectDots(array, result.dots.instants);
+  result.clouds = {result.dots.rate_hz, kFirstFrame, result.dots.start,
                    Reconstruct(array, result.dots.instants, arguments.reconstruct)};
   Result<MarkerTemplate> marker_template =
       TemplateFor(arguments.naming, result.clouds, LikelyAttitudes(array), arguments.label);
   if (!marker_template) return tl::unexpected(marker_template.error());
   result.marker_template = std::move(*marker_template);
-  result.labelling = LabelClouds(result.clouds, result.marker_template, arguments.label);
+  if (const auto known = corrections.CheckMarkers(result.marker_template); !known)
+    return tl::unexpected(known.error());
+  result.labelling = corrections.Label(result.clouds, result.marker_template, arguments.label,
+                                       array, result.dots.instants);
   return result;
 }
 
@@ -208,7 +217,7 @@ Result<TrackedMarkers> Follow(const TrackArguments& arguments, const CameraArray
 std::vector<std::filesystem::path> InputsOf(const TrackArguments& arguments) {
   std::vector<std::filesystem::path> inputs = InputFiles(arguments.paths, {arguments.cameras});
   for (const std::string& input :
-       {arguments.naming.known, arguments.naming.layout, arguments.config})
+       {arguments.naming.known, arguments.naming.layout, arguments.config, arguments.corrections})
     inputs.emplace_back(input);
   return inputs;
 }
@@ -248,12 +257,16 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   if (!format) return tl::unexpected(format.error());
   const Result<CameraArray> array = ReadCameras(arguments.cameras, arguments.read);
   if (!array) return tl::unexpected(array.error());
+  Result<AppliedCorrections> corrections = CorrectionsOf(arguments.corrections, kFirstFrame);
+  if (!corrections) return tl::unexpected(corrections.error());
+  if (const auto known = corrections->CheckViews(*array); !known)
+    return tl::unexpected(known.error());
   const Result<std::vector<DetectedVideo>> videos = DetectVideos(arguments, *array);
   if (!videos) return tl::unexpected(videos.error());
   const StageReport detection = DescribeDetection(*videos, arguments.detect);
   if (!detection.IsUsable()) return std::vector<StageReport>{detection};
   const Result<TrackedMarkers> tracked =
-      WithProgress("tracking", [&] { return Follow(arguments, *array, *videos); });
+      WithProgress("tracking", [&] { return Follow(arguments, *array, *videos, *corrections); });
   if (!tracked) return tl::unexpected(tracked.error());
   StageReport report = DescribeLabelling(tracked->clouds, tracked->marker_template,
                                          tracked->labelling, arguments.label);
@@ -263,11 +276,13 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
         arguments.fill);
   });
   if (!filled) return tl::unexpected(filled.error());
-  const MarkerRecording& markers = filled->output;
+  MarkerRecording markers = filled->output;
+  corrections->ClearFillsAcrossSplits(tracked->labelling, markers);
   if (const auto limit = LimitExceeded(markers, *format))
     return Fail(fmt::format("the recording has {}; write another format", *limit));
   for (const std::string& loss : LossesOf(markers, *format)) report.warnings.push_back(loss);
-  const std::vector<StageReport> reports = {detection, report, filled->report};
+  std::vector<StageReport> reports = {detection, report, filled->report};
+  if (!corrections->empty()) reports.push_back(corrections->Report());
   if (const auto written = WriteTracked(arguments, *array, *tracked, markers, *format, reports);
       !written)
     return tl::unexpected(written.error());
@@ -291,6 +306,7 @@ ExitCode TrackCommand(const std::vector<std::string>& arguments) {
             "marker file to write; its ending says the format")
       ->required();
   AddTemplateInput(line, values.naming);
+  AddCorrectionsFlag(line, values.corrections);
   line.Stage("read", values.read);
   line.Stage("detect", values.detect);
   line.Stage("synchronize", values.synchronize);
