@@ -94,10 +94,8 @@ Result<std::vector<StageReport>> RunLabel(const LabelArguments& arguments) {
   const Result<MarkerRecording> source = ReadMarkers(arguments.input, arguments.read);
   if (!source) return tl::unexpected(source.error());
   Result<AppliedCorrections> corrections =
-      CorrectionsOf(arguments.corrections, source->tracks.first_frame());
+      CorrectionsOf(arguments.corrections, source->tracks.first_frame(), CameraArray{});
   if (!corrections) return tl::unexpected(corrections.error());
-  if (const auto known = corrections->CheckViews(CameraArray{}); !known)
-    return tl::unexpected(known.error());
   const Result<LabelledFile> file =
       WithProgress("labelling", [&] { return LabelFile(arguments, *source, *corrections); });
   if (!file) return tl::unexpected(file.error());
@@ -113,11 +111,11 @@ Result<std::vector<StageReport>> RunLabel(const LabelArguments& arguments) {
   corrections->ClearFillsAcrossSplits(file->labelling, labelled);
   if (const auto limit = LimitExceeded(labelled, *format))
     return Fail(fmt::format("{} has {}; write another format", arguments.input, *limit));
-  for (const std::string& loss : LossesOf(labelled, *format)) report.warnings.push_back(loss);
   std::vector<StageReport> reports = {report, filled->report};
   if (!corrections->empty()) reports.push_back(corrections->Report());
   if (const auto written = WriteLabelled(arguments, *file, labelled, *format, reports); !written)
     return tl::unexpected(written.error());
+  for (const std::string& loss : LossesOf(labelled, *format)) reports[0].warnings.push_back(loss);
   return reports;
 }
 

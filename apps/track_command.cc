@@ -80,6 +80,16 @@ Result<TrackedMarkers> Follow(const TrackArguments& arguments, const CameraArray
   return result;
 }
 
+Result<StageResult<MarkerRecording>> Fill(const TrackArguments& arguments, const CameraArray& array,
+                                          const TrackedMarkers& tracked,
+                                          const AppliedCorrections& corrections) {
+  auto filled =
+      FillGaps(RecordingOf(tracked.clouds, tracked.marker_template, tracked.labelling, array),
+               arguments.fill);
+  if (filled) corrections.ClearFillsAcrossSplits(tracked.labelling, filled->output);
+  return filled;
+}
+
 // What was noticed before a stage failed may be why.
 std::string WithReasons(std::string message, const StageReport& earlier) {
   for (const std::string& warning : earlier.warnings) message += "\n  " + warning;
@@ -130,10 +140,9 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   if (!format) return tl::unexpected(format.error());
   const Result<CameraArray> array = ReadCameras(arguments.cameras, arguments.read);
   if (!array) return tl::unexpected(array.error());
-  Result<AppliedCorrections> corrections = CorrectionsOf(arguments.corrections, kFirstFrame);
+  Result<AppliedCorrections> corrections =
+      CorrectionsOf(arguments.corrections, kFirstFrame, *array);
   if (!corrections) return tl::unexpected(corrections.error());
-  if (const auto known = corrections->CheckViews(*array); !known)
-    return tl::unexpected(known.error());
   const Result<std::vector<DetectedVideo>> videos =
       DetectVideos(*array, arguments.paths, arguments.detect);
   if (!videos) return tl::unexpected(videos.error());
@@ -142,24 +151,20 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   const Result<TrackedMarkers> tracked =
       WithProgress("tracking", [&] { return Follow(arguments, *array, *videos, *corrections); });
   if (!tracked) return Fail(WithReasons(tracked.error().message, detection));
-  StageReport report = DescribeLabelling(tracked->clouds, tracked->marker_template,
-                                         tracked->labelling, arguments.label);
-  const auto filled = WithProgress("filling gaps", [&] {
-    return FillGaps(
-        RecordingOf(tracked->clouds, tracked->marker_template, tracked->labelling, *array),
-        arguments.fill);
-  });
+  const StageReport report = DescribeLabelling(tracked->clouds, tracked->marker_template,
+                                               tracked->labelling, arguments.label);
+  const auto filled =
+      WithProgress("filling gaps", [&] { return Fill(arguments, *array, *tracked, *corrections); });
   if (!filled) return tl::unexpected(filled.error());
-  MarkerRecording markers = filled->output;
-  corrections->ClearFillsAcrossSplits(tracked->labelling, markers);
+  const MarkerRecording& markers = filled->output;
   if (const auto limit = LimitExceeded(markers, *format))
     return Fail(fmt::format("the recording has {}; write another format", *limit));
-  for (const std::string& loss : LossesOf(markers, *format)) report.warnings.push_back(loss);
   std::vector<StageReport> reports = {detection, report, filled->report};
   if (!corrections->empty()) reports.push_back(corrections->Report());
   if (const auto written = WriteTracked(arguments, *array, *tracked, markers, *format, reports);
       !written)
     return tl::unexpected(written.error());
+  for (const std::string& loss : LossesOf(markers, *format)) reports[1].warnings.push_back(loss);
   return reports;
 }
 

@@ -316,7 +316,7 @@ void AppliedCorrections::CorrectLabels(const PointClouds& clouds,
 }
 
 void AppliedCorrections::ClearFillsAcrossSplits(const Labelling& labelling,
-                                                MarkerRecording& recording) {
+                                                MarkerRecording& recording) const {
   StageTracks& tracks = recording.tracks;
   for (const Correction& correction : corrections_.list) {
     const int split = correction.first - first_frame_;

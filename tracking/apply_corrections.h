@@ -52,7 +52,7 @@ class AppliedCorrections {
                   const std::vector<InstantDots>& instants);
 
   // Filled samples between what was seen before a split and what was seen after it become missing.
-  void ClearFillsAcrossSplits(const Labelling& labelling, MarkerRecording& recording);
+  void ClearFillsAcrossSplits(const Labelling& labelling, MarkerRecording& recording) const;
 
   // "correct": how much each changed; a warning for each that changed nothing.
   StageReport Report() const;
