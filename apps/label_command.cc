@@ -5,12 +5,15 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/corrections_input.h"
 #include "apps/marker_input.h"
 #include "apps/output_names.h"
 #include "apps/output_set.h"
 #include "apps/progress.h"
+#include "apps/review_outputs.h"
 #include "apps/template_input.h"
 #include "apps/verbs.h"
+#include "tracking/apply_corrections.h"
 #include "tracking/fill_gaps.h"
 #include "tracking/labelled_markers.h"
 #include "tracking/learn_template.h"
@@ -19,7 +22,7 @@ namespace articap {
 namespace {
 
 struct LabelArguments {
-  std::string input, output, config;
+  std::string input, output, config, corrections;
   TemplateInput naming;
   MarkerReadOptions read;
   LabelOptions label;
@@ -43,6 +46,46 @@ std::vector<Eigen::Quaterniond> AttitudesOfLaboratories() {
   return attitudes;
 }
 
+struct LabelledFile {
+  PointClouds clouds;
+  MarkerTemplate marker_template;
+  Labelling labelling;
+};
+
+Result<LabelledFile> LabelFile(const LabelArguments& arguments, const MarkerRecording& source,
+                               AppliedCorrections& corrections) {
+  LabelledFile result;
+  result.clouds = CloudsOf(source);
+  Result<MarkerTemplate> marker_template =
+      TemplateFor(arguments.naming, result.clouds, AttitudesOfLaboratories(), arguments.label);
+  if (!marker_template) return tl::unexpected(marker_template.error());
+  result.marker_template = std::move(*marker_template);
+  if (const auto known = corrections.CheckMarkers(result.marker_template); !known)
+    return tl::unexpected(known.error());
+  result.labelling =
+      corrections.Label(result.clouds, result.marker_template, arguments.label, CameraArray{}, {});
+  return result;
+}
+
+Result<void> WriteLabelled(const LabelArguments& arguments, const LabelledFile& file,
+                           const MarkerRecording& labelled, MarkerFormat format,
+                           const std::vector<StageReport>& reports) {
+  OutputSet outputs;
+  outputs.Add(arguments.output, FormatMarkers(labelled, format));
+  const TakeReview review = ReviewOf(file.clouds, file.labelling, labelled);
+  AddReview(arguments.output, review, DoubtsOf(review, file.labelling, labelled.tracks), reports,
+            outputs);
+  if (arguments.naming.known.empty())
+    outputs.Add(Beside(arguments.output, ".template.toml"),
+                WriteMarkerTemplate(file.marker_template));
+  if (auto allowed = outputs.RefuseToOverwrite({arguments.input, arguments.naming.known,
+                                                arguments.naming.layout, arguments.config,
+                                                arguments.corrections});
+      !allowed)
+    return allowed;
+  return outputs.Commit();
+}
+
 Result<std::vector<StageReport>> RunLabel(const LabelArguments& arguments) {
   if (const auto checked = CheckOptions(arguments.fill); !checked)
     return tl::unexpected(checked.error());
@@ -50,34 +93,30 @@ Result<std::vector<StageReport>> RunLabel(const LabelArguments& arguments) {
   if (!format) return tl::unexpected(format.error());
   const Result<MarkerRecording> source = ReadMarkers(arguments.input, arguments.read);
   if (!source) return tl::unexpected(source.error());
-  const PointClouds clouds = CloudsOf(*source);
-  const Result<MarkerTemplate> marker_template = WithProgress("labelling", [&] {
-    return TemplateFor(arguments.naming, clouds, AttitudesOfLaboratories(), arguments.label);
-  });
-  if (!marker_template) return tl::unexpected(marker_template.error());
-  const Labelling labelling = WithProgress(
-      "labelling", [&] { return LabelClouds(clouds, *marker_template, arguments.label); });
-  StageReport report = DescribeLabelling(clouds, *marker_template, labelling, arguments.label);
+  Result<AppliedCorrections> corrections =
+      CorrectionsOf(arguments.corrections, source->tracks.first_frame(), CameraArray{});
+  if (!corrections) return tl::unexpected(corrections.error());
+  const Result<LabelledFile> file =
+      WithProgress("labelling", [&] { return LabelFile(arguments, *source, *corrections); });
+  if (!file) return tl::unexpected(file.error());
+  StageReport report =
+      DescribeLabelling(file->clouds, file->marker_template, file->labelling, arguments.label);
   for (const std::string& warning : source->warnings) report.warnings.push_back(warning);
   const auto filled = WithProgress("filling gaps", [&] {
-    return FillGaps(RecordingOf(*source, clouds, *marker_template, labelling), arguments.fill);
+    return FillGaps(RecordingOf(*source, file->clouds, file->marker_template, file->labelling),
+                    arguments.fill);
   });
   if (!filled) return tl::unexpected(filled.error());
-  const MarkerRecording& labelled = filled->output;
+  MarkerRecording labelled = filled->output;
+  corrections->ClearFillsAcrossSplits(file->labelling, labelled);
   if (const auto limit = LimitExceeded(labelled, *format))
     return Fail(fmt::format("{} has {}; write another format", arguments.input, *limit));
-  OutputSet outputs;
-  outputs.Add(arguments.output, FormatMarkers(labelled, *format));
-  outputs.Add(Beside(arguments.output, ".report.json"), ReportsToJson({report, filled->report}));
-  if (arguments.naming.known.empty())
-    outputs.Add(Beside(arguments.output, ".template.toml"), WriteMarkerTemplate(*marker_template));
-  if (const auto allowed = outputs.RefuseToOverwrite(
-          {arguments.input, arguments.naming.known, arguments.naming.layout, arguments.config});
-      !allowed)
-    return tl::unexpected(allowed.error());
-  if (const auto written = outputs.Commit(); !written) return tl::unexpected(written.error());
-  for (const std::string& loss : LossesOf(labelled, *format)) report.warnings.push_back(loss);
-  return std::vector<StageReport>{report, filled->report};
+  std::vector<StageReport> reports = {report, filled->report};
+  if (!corrections->empty()) reports.push_back(corrections->Report());
+  if (const auto written = WriteLabelled(arguments, *file, labelled, *format, reports); !written)
+    return tl::unexpected(written.error());
+  for (const std::string& loss : LossesOf(labelled, *format)) reports[0].warnings.push_back(loss);
+  return reports;
 }
 
 }  // namespace
@@ -93,6 +132,7 @@ ExitCode LabelCommand(const std::vector<std::string>& arguments) {
   line.Argument("IN", values.input, "marker file; the names in it are not regarded");
   line.Argument("OUT", values.output, "marker file to write; its ending says the format");
   AddTemplateInput(line, values.naming);
+  AddCorrectionsFlag(line, values.corrections);
   line.Stage("read", values.read);
   line.Stage("label", values.label);
   line.Stage("fill", values.fill, "fill");

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "calib/calibration_report.h"
+#include "core/json_text.h"
 
 namespace articap {
 namespace {
@@ -124,37 +124,12 @@ Json SightingJson(const SightingResult& sighting, const CameraArray& array) {
           {"residuals_px", RoundedPixels(sighting.residuals_px)}};
 }
 
-// What is not UTF-8 in names from files is replaced.
-std::string Compact(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-// Indented down to the rows of tables, the cameras and the sightings: these have a line each.
-void Write(const Json& json, int depth, std::string& text) {
-  constexpr int kDeepestIndented = 2;
-  if (depth > kDeepestIndented || !json.is_structured() || json.empty()) {
-    text += Compact(json);
-    return;
-  }
-  const std::string indent(2 * static_cast<std::size_t>(depth), ' ');
-  text += json.is_object() ? "{" : "[";
-  std::string_view separator = "\n";
-  for (const auto& item : json.items()) {
-    text += separator;
-    text += indent + "  ";
-    if (json.is_object()) text += Compact(item.key()) + ": ";
-    Write(item.value(), depth + 1, text);
-    separator = ",\n";
-  }
-  text += "\n" + indent + (json.is_object() ? "}" : "]");
-}
-
 std::string WithReport(const StageReport& report, Json calibration) {
   Json json = Json::parse(report.ToJson());
   json["calibration"] = std::move(calibration);
-  std::string text;
-  Write(json, 0, text);
-  return text + "\n";
+  // The rows of tables, the cameras and the sightings have a line each.
+  constexpr int kDeepestIndented = 2;
+  return IndentedJson(json, kDeepestIndented);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/opt.h>
+#include <libswscale/swscale.h>
 }
 
 namespace articap {
@@ -32,13 +33,13 @@ Result<void> CheckFormat(const std::string& name, const VideoFormat& format) {
       format.rate.seconds <= 0)
     return Fail(fmt::format("{}: a video of {} x {} pixels at {}/{} Hz cannot be written", name,
                             format.width, format.height, format.rate.frames, format.rate.seconds));
-  if (format.pixels == PixelFormat::kRgb8)
-    return Fail(fmt::format("{}: videos are written in grey alone", name));
   if (format.codec == VideoCodec::kFfv1) {
+    if (format.pixels == PixelFormat::kRgb8)
+      return Fail(fmt::format("{}: lossless video is written in grey alone", name));
     if (format.container == VideoContainer::kMatroska) return {};
     return Fail(fmt::format("{}: lossless video (FFV1) goes into Matroska (.mkv)", name));
   }
-  if (format.pixels != PixelFormat::kGray8)
+  if (format.pixels == PixelFormat::kGray16)
     return Fail(fmt::format("{}: H.264 holds 8 bits; choose FFV1 for 16", name));
   if (format.width % 2 != 0 || format.height % 2 != 0)
     return Fail(
@@ -104,10 +105,10 @@ class VideoWriter::Output {
     ARTICAP_CHECK(image.format == format_.pixels && image.width == format_.width &&
                   image.height == format_.height);
     if (auto made = MakeFrame(); !made) return made;
-    const auto row_bytes = static_cast<std::size_t>(image.width) * BytesPerPixel(image.format);
-    for (int y = 0; y < image.height; ++y)
-      std::memcpy(frame_->data[0] + static_cast<std::ptrdiff_t>(y) * frame_->linesize[0],
-                  image.row(y), row_bytes);
+    if (image.format == PixelFormat::kRgb8)
+      CopyColor(image);
+    else
+      CopyGrey(image);
     frame_->pts = num_frames_++;
     return Encode(frame_.get());
   }
@@ -148,6 +149,7 @@ class VideoWriter::Output {
     encoder_->time_base = {format_.rate.seconds, format_.rate.frames};
     encoder_->framerate = {format_.rate.frames, format_.rate.seconds};
     encoder_->color_range = AVCOL_RANGE_JPEG;
+    if (format_.pixels == PixelFormat::kRgb8) encoder_->colorspace = AVCOL_SPC_SMPTE170M;
     encoder_->thread_count = 1;  // the bytes must not depend on the machine
     encoder_->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
     if (is_h264) {
@@ -166,8 +168,7 @@ class VideoWriter::Output {
     return {};
   }
 
-  // A frame of its own for every picture, since the encoder may keep the last ones; grey, of H.264
-  // without colour.
+  // A frame of its own for every picture, since the encoder may keep the last ones; without colour.
   Result<void> MakeFrame() {
     frame_.reset(av_frame_alloc());
     frame_->format = encoder_->pix_fmt;
@@ -178,6 +179,30 @@ class VideoWriter::Output {
     for (const AVBufferRef* const buffer : frame_->buf)
       if (buffer != nullptr) std::memset(buffer->data, kNoColor, buffer->size);
     return {};
+  }
+
+  void CopyGrey(const ImageView& image) {
+    const auto row_bytes = static_cast<std::size_t>(image.width) * BytesPerPixel(image.format);
+    for (int y = 0; y < image.height; ++y)
+      std::memcpy(frame_->data[0] + static_cast<std::ptrdiff_t>(y) * frame_->linesize[0],
+                  image.row(y), row_bytes);
+  }
+
+  void CopyColor(const ImageView& image) {
+    constexpr int kFullRange = 1, kUnit = 1 << 16;
+    if (!scaler_) {
+      scaler_.reset(sws_getContext(format_.width, format_.height, AV_PIX_FMT_RGB24, format_.width,
+                                   format_.height, encoder_->pix_fmt,
+                                   SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT, nullptr, nullptr,
+                                   nullptr));
+      ARTICAP_CHECK(scaler_ != nullptr);
+      const int* const coefficients = sws_getCoefficients(SWS_CS_ITU601);
+      sws_setColorspaceDetails(scaler_.get(), coefficients, kFullRange, coefficients, kFullRange, 0,
+                               kUnit, kUnit);
+    }
+    const std::uint8_t* const rows[] = {image.data};
+    const int stride_bytes[] = {static_cast<int>(image.stride_bytes)};
+    sws_scale(scaler_.get(), rows, stride_bytes, 0, format_.height, frame_->data, frame_->linesize);
   }
 
   // Null: what the encoder still keeps back.
@@ -203,6 +228,7 @@ class VideoWriter::Output {
   libav::Owner<AVCodecContext> encoder_;
   libav::Owner<AVFrame> frame_;
   libav::Owner<AVPacket> packet_;
+  libav::Owner<SwsContext> scaler_;  // of colour
   AVFormatContext* muxer_ = nullptr;
   AVStream* stream_ = nullptr;  // of the muxer
   std::int64_t num_frames_ = 0;

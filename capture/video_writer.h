@@ -13,7 +13,7 @@ namespace articap {
 enum class VideoCodec : std::uint8_t {
   kFfv1,  // lossless, in Matroska
   // As camcorders and webcams write it: lossy (libx264, yuv420p), in Matroska or MP4. Grey becomes
-  // luma of full range, the same numbers; there is no colour.
+  // luma of full range, the same numbers.
   kH264,
 };
 
@@ -33,11 +33,11 @@ struct VideoFormat {
   double crf = 18;  // of H.264, "constant rate factor": 0 best to 51 worst
   int width = 0;    // px; of H.264 even
   int height = 0;
-  PixelFormat pixels = PixelFormat::kGray8;  // or kGray16 with FFV1
+  PixelFormat pixels = PixelFormat::kGray8;  // or kGray16 with FFV1, kRgb8 with H.264
   VideoRate rate;
 };
 
-// Writes a grey video frame by frame, at exact times k seconds / frames; Matroska rounds them to
+// Writes a video frame by frame, at exact times k seconds / frames; Matroska rounds them to
 // milliseconds and names the rate beside. The same frames give the same bytes with one version of
 // FFmpeg; of H.264 if the size is a multiple of 8. Fails where an encoder is missing, the pictures
 // do not fit, or the disk is full.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/check.h"
+#include "render/draw.h"
 
 namespace articap {
 namespace {
@@ -62,12 +63,6 @@ void FillRectangle(Picture& picture, int left, int top, int width, int height,
   for (int y = std::max(0, top); y < std::min(picture.height, top + height); ++y)
     for (int x = std::max(0, left); x < std::min(picture.width, left + width); ++x)
       std::copy(color, color + 3, picture.pixel(x, y));
-}
-
-void Paste(Picture& sheet, const Picture& picture, int left, int top) {
-  for (int y = 0; y < picture.height; ++y)
-    std::copy_n(picture.pixel(0, y), 3 * static_cast<std::size_t>(picture.width),
-                sheet.pixel(left, top + y));
 }
 
 // Breaks a label behind blanks and underscores into lines that fit; what has no place to break

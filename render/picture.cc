@@ -30,8 +30,9 @@ png_uint_32 PngFormatOf(PixelFormat format) {
 Picture FilledPicture(int width, int height, const Eigen::Vector3f& linear_color) {
   Picture picture{width, height,
                   std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * height)};
-  for (std::size_t i = 0; i < picture.rgb8.size(); ++i)
-    picture.rgb8[i] = SrgbByte(linear_color[static_cast<int>(i % 3)]);
+  const std::uint8_t color[3] = {SrgbByte(linear_color[0]), SrgbByte(linear_color[1]),
+                                 SrgbByte(linear_color[2])};
+  for (std::size_t i = 0; i < picture.rgb8.size(); ++i) picture.rgb8[i] = color[i % 3];
   return picture;
 }
 

@@ -9,5 +9,6 @@ namespace articap {
 // its script, holding the marks {{articap:title}} and {{articap:data}}.
 std::string_view PageTemplate();             // of a fit
 std::string_view CalibrationPageTemplate();  // of a calibration
+std::string_view TrackingPageTemplate();     // of labelled markers
 
 }  // namespace articap

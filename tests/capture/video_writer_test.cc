@@ -70,6 +70,32 @@ std::vector<std::uint8_t> BytesOf(const ImageView& image) {
   return bytes;
 }
 
+// Large fields of one colour each, whose middles compression leaves nearly alone.
+TEST(VideoWriterTest, ColourComesBack) {
+  VideoFormat format = Format(VideoCodec::kH264, PixelFormat::kRgb8, {25, 1});
+  const std::vector<std::vector<std::uint8_t>> colors = {
+      {250, 120, 10}, {20, 160, 240}, {128, 128, 128}, {0, 0, 0}};
+  Image image(PixelFormat::kRgb8, format.width, format.height);
+  const int field = format.width / static_cast<int>(colors.size());
+  for (int y = 0; y < format.height; ++y)
+    for (int x = 0; x < format.width; ++x)
+      std::copy_n(colors[x / field].begin(), 3, image.row(y) + 3 * x);
+  const std::filesystem::path path = MakeTemporaryFolder("video_writer") / "color.mkv";
+  const auto writer = OrThrow(VideoWriter::Create(path, format));
+  ASSERT_TRUE(writer->Write(image.view()));
+  ASSERT_TRUE(writer->Finish());
+  VideoOptions options;
+  options.color = PixelColor::kRgb;
+  const auto source = OrThrow(OpenVideo({path}, options));
+  const auto frame = OrThrow(source->Next());
+  ASSERT_TRUE(frame);
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    for (int channel = 0; channel < 3; ++channel)
+      EXPECT_NEAR(frame->image.row(36)[3 * (static_cast<int>(i) * field + field / 2) + channel],
+                  colors[i][channel], 4)
+          << "field " << i << ", channel " << channel;
+}
+
 TEST(VideoWriterTest, LosslessVideoComesBackByteForByte) {
   for (const PixelFormat pixels : {PixelFormat::kGray8, PixelFormat::kGray16}) {
     const VideoFormat format = Format(VideoCodec::kFfv1, pixels, {30000, 1001});

@@ -77,7 +77,7 @@ function warningsOf({warnings, calibration}) {
   return others;
 }
 
-function gradeOf(data, warnings) {
+export function gradeOf(data, warnings) {
   if (!data.usable) return ['bad', '✗', 'Not usable'];
   if (warnings.length > 0)
     return [
