@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/rigidity.h"
-
 namespace articap {
 namespace {
 
@@ -66,10 +64,13 @@ class BothSides {
             (frames_[frame].places[m].position_mm - expected.position_mm).squaredNorm() /
             expected.covariance_mm2.trace());
       }
-      // The median of a chi-squared variable of three degrees of freedom, each.
-      constexpr double kMedian = 2.366 / 3;
-      if (ratios.size() >= kFewest)
-        restlessness_[m] = std::clamp(MedianOf(ratios) / kMedian, kCalmest, 1.0);
+      if (ratios.size() < kFewest) continue;
+      // Of a chi-squared variable of three degrees of freedom, each: faces rest, and move at once.
+      constexpr double kPart = 0.95, kQuantile = 7.815 / 3;
+      const auto at = ratios.begin() +
+                      static_cast<std::ptrdiff_t>(kPart * static_cast<double>(ratios.size() - 1));
+      std::nth_element(ratios.begin(), at, ratios.end());
+      restlessness_[m] = std::clamp(*at / kQuantile, kCalmest, 1.0);
     }
   }
 

@@ -90,10 +90,11 @@ TEST(VideoWriterTest, ColourComesBack) {
   const auto frame = OrThrow(source->Next());
   ASSERT_TRUE(frame);
   for (std::size_t i = 0; i < colors.size(); ++i)
-    for (int channel = 0; channel < 3; ++channel)
-      EXPECT_NEAR(frame->image.row(36)[3 * (static_cast<int>(i) * field + field / 2) + channel],
-                  colors[i][channel], 4)
+    for (int channel = 0; channel < 3; ++channel) {
+      const int middle = static_cast<int>(i) * field + field / 2;
+      EXPECT_NEAR(frame->image.row(36)[3 * middle + channel], colors[i][channel], 4)
           << "field " << i << ", channel " << channel;
+    }
 }
 
 TEST(VideoWriterTest, LosslessVideoComesBackByteForByte) {
