@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tracking/perspective_bias.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <numbers>
 
 namespace articap {
 namespace {
@@ -19,13 +23,31 @@ Eigen::Matrix3d DualConicOfDisc(const Eigen::Vector3d& center_mm, double radius_
          radius_mm * radius_mm * (a * a.transpose() + b * b.transpose());
 }
 
+// Without distortion the polygon is one of an ellipse, and its middle exact; what a smooth lens
+// changes of that falls with the fourth power of their number.
+constexpr int kOutlinePoints = 32;
+
+// Of the area.
+Eigen::Vector2d MiddleOfPolygon(const std::array<Eigen::Vector2d, kOutlinePoints>& corners) {
+  double area = 0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int i = 0; i < kOutlinePoints; ++i) {
+    const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % kOutlinePoints];
+    const double cross = a.x() * b.y() - a.y() * b.x();
+    area += cross;
+    sum += cross * (a + b) / 3;
+  }
+  return sum / area;
+}
+
 }  // namespace
 
 std::optional<Eigen::Vector2d> PerspectiveBias(const Lens& lens,
                                                const Eigen::Vector3d& center_in_cam_mm,
                                                const MarkerForm& marker) {
   const double radius_mm = marker.diameter_mm / 2;
-  if (!Project(lens, center_in_cam_mm)) return std::nullopt;
+  const auto center_px = Project(lens, center_in_cam_mm);
+  if (!center_px) return std::nullopt;
   const Eigen::Vector3d normal = marker.normal_in_cam.value_or(center_in_cam_mm);
   const Eigen::Matrix3d dual = marker.kind == MarkerKind::kSphere
                                    ? DualConicOfSphere(center_in_cam_mm, radius_mm)
@@ -33,10 +55,22 @@ std::optional<Eigen::Vector2d> PerspectiveBias(const Lens& lens,
   // The outline is an ellipse as long as it does not reach the plane of the camera.
   if (!(dual(2, 2) > 0)) return std::nullopt;
   const Eigen::Vector2d middle = dual.col(2).head<2>() / dual(2, 2);
-  const Eigen::Vector2d center = center_in_cam_mm.hnormalized();
-  const Eigen::Vector2d focal_px(lens.fx_px, lens.fy_px);
-  return focal_px.asDiagonal() *
-         (DistortJacobian(lens.distortion.data(), center) * (middle - center));
+  // Of the ellipse, in the plane at distance 1: its points p have (p - middle)^T shape^-1 (p -
+  // middle) = 1.
+  const Eigen::Matrix2d shape =
+      middle * middle.transpose() - dual.topLeftCorner<2, 2>() / dual(2, 2);
+  const Eigen::LLT<Eigen::Matrix2d> root(shape);
+  if (root.info() != Eigen::Success) return std::nullopt;
+  std::array<Eigen::Vector2d, kOutlinePoints> outline;
+  for (int i = 0; i < kOutlinePoints; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kOutlinePoints;
+    const Eigen::Vector2d point =
+        middle + root.matrixL() * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    const auto appears = Project(lens, point.homogeneous());
+    if (!appears) return std::nullopt;
+    outline[i] = *appears - *center_px;
+  }
+  return MiddleOfPolygon(outline);
 }
 
 }  // namespace articap

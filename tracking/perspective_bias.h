@@ -28,8 +28,8 @@ struct MarkerForm {
 //   disc:   H diag(1, 1, -1) H^T, with H = [radius a, radius b, centre] and a, b unit in its plane;
 // and the middle is the pole of the line at infinity, Q* (0, 0, 1)^T. (Hartley and Zisserman,
 // Multiple View Geometry, 2nd ed., 2.2.3 and 8.3; J. Heikkila, "Geometric camera calibration using
-// circular control points", PAMI 22(10), 2000.) The lens' distortion is taken as linear over the
-// marker, which left 29 % of the offset (RMS) of discs of 8 mm with k1 = -0.15.
+// circular control points", PAMI 22(10), 2000.) A lens that distorts bends the outline: its middle
+// is then that of the area within, from points of the outline.
 //
 // Nothing where not all of the marker is ahead of the camera.
 std::optional<Eigen::Vector2d> PerspectiveBias(const Lens& lens,
