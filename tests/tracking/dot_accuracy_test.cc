@@ -147,7 +147,7 @@ TEST(DotAccuracyTest, WhatIsHiddenIsFlaggedAndHardlyMovesTheRest) {
   double sum2 = 0, largest = 0;
   constexpr int kCount = 100;
   for (int i = 0; i < kCount; ++i) {
-    const Eigen::Vector2d center(32 + random.Uniform(), 32 + random.Uniform());
+    const Eigen::Vector2d center{32 + random.Uniform(), 32 + random.Uniform()};
     LightPicture light(64, 64, 0.2);
     light.Add(PaintedDot::Disc(center, 16));
     light.Cover(center.x() + 8 / 3.0, 0.2, 0.7);

@@ -28,7 +28,7 @@ TrialPicture PaintTrial(const DotTrial& trial, RandomGenerator& random) {
       PaintedDot dot = trial.dot;
       const Eigen::Vector2d corner(column * cell, row * cell);
       dot.center_px = corner + Eigen::Vector2d::Constant(cell / 2) +
-                      Eigen::Vector2d(random.Uniform(), random.Uniform());
+                      Eigen::Vector2d{random.Uniform(), random.Uniform()};
       if (trial.turns) dot.angle_rad = random.Uniform(0, std::numbers::pi);
       for (int y = row * cell; y < (row + 1) * cell; ++y)
         for (int x = column * cell; x < (column + 1) * cell; ++x)

@@ -61,7 +61,7 @@ Lens PlainLens() { return {1500, 1480, 960, 540, {}}; }
 
 // Towards somewhere in a picture of 1920 x 1080 px.
 Eigen::Vector3d RandomCenter(RandomGenerator& random, const Lens& lens) {
-  const Eigen::Vector2d at(random.Uniform(100, 1800), random.Uniform(100, 980));
+  const Eigen::Vector2d at{random.Uniform(100, 1800), random.Uniform(100, 980)};
   return random.Uniform(250, 700) * Unproject(lens, at)->normalized();
 }
 
