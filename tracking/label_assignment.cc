@@ -29,6 +29,20 @@ int FindContradiction(const LabelCosts& costs, std::span<const CloudPoint> cloud
   return -1;
 }
 
+// Whether two points of different views may well be one marker, of which a view shows too little to
+// tell its middle: then they are no rivals.
+bool MayBeOne(const CloudPoint& a, const CloudPoint& b) {
+  for (const DotSight& sight : a.sights)
+    for (const DotSight& other : b.sights)
+      if (sight.view == other.view) return false;
+  constexpr double kHidden_mm = 1, kSigmas = 3;
+  const Eigen::Matrix3d covariance = CovarianceOf_mm2(a) + CovarianceOf_mm2(b) +
+                                     kHidden_mm * kHidden_mm * Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d apart = a.position_in_stage_mm - b.position_in_stage_mm;
+  return !a.sights.empty() && !b.sights.empty() &&
+         apart.dot(covariance.llt().solve(apart)) < kSigmas * kSigmas;
+}
+
 }  // namespace
 
 std::vector<MarkerPlace> HomesOf(const MarkerTemplate& marker_template) {
@@ -91,24 +105,6 @@ double TotalCost(const LabelCosts& costs, const std::vector<int>& points) {
     total += points[m] < 0 ? costs.null_cost : costs.costs(m, points[m]);
   return total;
 }
-
-namespace {
-
-// Whether two points of different views may well be one marker, of which a view shows too little to
-// tell its middle: then they are no rivals.
-bool MayBeOne(const CloudPoint& a, const CloudPoint& b) {
-  for (const DotSight& sight : a.sights)
-    for (const DotSight& other : b.sights)
-      if (sight.view == other.view) return false;
-  constexpr double kHidden_mm = 1, kSigmas = 3;
-  const Eigen::Matrix3d covariance = CovarianceOf_mm2(a) + CovarianceOf_mm2(b) +
-                                     kHidden_mm * kHidden_mm * Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d apart = a.position_in_stage_mm - b.position_in_stage_mm;
-  return !a.sights.empty() && !b.sights.empty() &&
-         apart.dot(covariance.llt().solve(apart)) < kSigmas * kSigmas;
-}
-
-}  // namespace
 
 std::vector<float> MarginsOf(const LabelCosts& costs, std::span<const CloudPoint> cloud,
                              const std::vector<int>& points) {

@@ -209,8 +209,8 @@ double SpreadOf_mm(std::vector<double> values, double middle) {
 
 // In the template, where so many views or more saw the marker; points of a file count as seen by
 // all.
-std::vector<Eigen::Vector3d> PlacesOf(const PointClouds& clouds, const Labelling& labelling,
-                                      int marker, std::size_t least_views) {
+std::vector<Eigen::Vector3d> FoundPlaces(const PointClouds& clouds, const Labelling& labelling,
+                                         int marker, std::size_t least_views) {
   std::vector<Eigen::Vector3d> places;
   for (int frame = 0; frame < clouds.num_frames(); ++frame) {
     const LabelledFrame& labelled = labelling.frames[frame];
@@ -292,11 +292,11 @@ MarkerTemplate RefineTemplate(const MarkerTemplate& marker_template, const Point
   MarkerTemplate refined = marker_template;
   for (int m = 0; m < static_cast<int>(refined.markers.size()); ++m) {
     TemplateMarker& marker = refined.markers[m];
-    std::vector<Eigen::Vector3d> places = PlacesOf(clouds, labelling, m, 2);
+    std::vector<Eigen::Vector3d> places = FoundPlaces(clouds, labelling, m, 2);
     if (places.size() >= kFewest)
       marker.unmeasured_mm.setZero();
     else
-      places = PlacesOf(clouds, labelling, m, 1);
+      places = FoundPlaces(clouds, labelling, m, 1);
     if (places.size() < kFewest) continue;
     double spread_mm = marker.head_reference ? kLeastSigma_mm : kLeastFaceSigma_mm;
     for (int axis = 0; axis < 3; ++axis) {
