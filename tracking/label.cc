@@ -228,6 +228,13 @@ int LabelledFrame::num_labelled() const {
       std::count_if(points.begin(), points.end(), [](int point) { return point >= 0; }));
 }
 
+const CloudPoint* LabelledPoint(const PointClouds& clouds, const Labelling& labelling, int frame,
+                                int marker) {
+  const LabelledFrame& labelled = labelling.frames[frame];
+  if (!labelled.template_from_stage || labelled.points[marker] < 0) return nullptr;
+  return &clouds.frames[frame][labelled.points[marker]];
+}
+
 void VisitOptions(LabelOptions& options, OptionVisitor& visit) {
   visit("seen", options.seen, "part of a marker's frames in which it is found");
   visit("false_points", options.false_points,

@@ -46,6 +46,10 @@ struct Labelling {
   int swaps_repaired = 0;  // samples whose label the rest of their tracklet outvoted
 };
 
+// The point that a marker is in a frame; null for none.
+const CloudPoint* LabelledPoint(const PointClouds& clouds, const Labelling& labelling, int frame,
+                                int marker);
+
 // Names the points of every frame by a template of the speaker. The head is found in the first
 // frame that shows enough of it, by what is rigid: triples of points as far apart as the
 // template's. From there on each frame begins with what the last ones promise (HeadMotion), markers

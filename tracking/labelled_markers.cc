@@ -21,14 +21,6 @@ int NumMarkers(const MarkerTemplate& marker_template) {
   return static_cast<int>(marker_template.markers.size());
 }
 
-// The point of a marker in a frame; null for none.
-const CloudPoint* PointOf(const PointClouds& clouds, const Labelling& labelling, int frame,
-                          int marker) {
-  const LabelledFrame& labelled = labelling.frames[frame];
-  if (!labelled.template_from_stage || labelled.points[marker] < 0) return nullptr;
-  return &clouds.frames[frame][labelled.points[marker]];
-}
-
 MarkerRecording EmptyRecording(const PointClouds& clouds, const MarkerTemplate& marker_template) {
   MarkerRecording recording;
   recording.tracks = StageTracks(marker_template.names(), clouds.num_frames(), clouds.rate_hz,
@@ -77,7 +69,7 @@ MarkerStory StoryOf(const PointClouds& clouds, const Labelling& labelling, int m
   int gap = 0;
   std::vector<const CloudPoint*> last = {nullptr, nullptr};
   for (int frame = 0; frame < clouds.num_frames(); ++frame) {
-    const CloudPoint* point = PointOf(clouds, labelling, frame, marker);
+    const CloudPoint* point = LabelledPoint(clouds, labelling, frame, marker);
     if (!point) {
       if (gap++ == 0) ++story.gaps;
       story.longest_gap = std::max(story.longest_gap, gap);
@@ -172,7 +164,7 @@ MarkerRecording RecordingOf(const PointClouds& clouds, const MarkerTemplate& mar
   std::size_t sample = 0;
   for (int frame = 0; frame < clouds.num_frames(); ++frame)
     for (int m = 0; m < NumMarkers(marker_template); ++m, ++sample) {
-      const CloudPoint* point = PointOf(clouds, labelling, frame, m);
+      const CloudPoint* point = LabelledPoint(clouds, labelling, frame, m);
       if (!point) continue;
       const LabelledFrame& labelled = labelling.frames[frame];
       const StagePlace place =
@@ -202,7 +194,7 @@ MarkerRecording RecordingOf(const MarkerRecording& source, const PointClouds& cl
   std::size_t sample = 0;
   for (int frame = 0; frame < clouds.num_frames(); ++frame)
     for (int m = 0; m < NumMarkers(marker_template); ++m, ++sample) {
-      const CloudPoint* point = PointOf(clouds, labelling, frame, m);
+      const CloudPoint* point = LabelledPoint(clouds, labelling, frame, m);
       if (!point) continue;
       recording.tracks.Set(frame, m, point->position_in_stage_mm,
                            source.tracks.state(frame, point->column),

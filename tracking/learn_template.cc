@@ -213,11 +213,9 @@ std::vector<Eigen::Vector3d> FoundPlaces(const PointClouds& clouds, const Labell
                                          int marker, std::size_t least_views) {
   std::vector<Eigen::Vector3d> places;
   for (int frame = 0; frame < clouds.num_frames(); ++frame) {
-    const LabelledFrame& labelled = labelling.frames[frame];
-    if (!labelled.template_from_stage || labelled.points[marker] < 0) continue;
-    const auto& sights = clouds.frames[frame][labelled.points[marker]].sights;
-    if (sights.empty() || sights.size() >= least_views)
-      places.push_back(labelled.places[marker].position_mm);
+    const CloudPoint* const point = LabelledPoint(clouds, labelling, frame, marker);
+    if (point && (point->sights.empty() || point->sights.size() >= least_views))
+      places.push_back(labelling.frames[frame].places[marker].position_mm);
   }
   return places;
 }

@@ -13,14 +13,6 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-// The point that a marker is in a frame; null for none.
-const CloudPoint* PointOf(const PointClouds& clouds, const Labelling& labelling, int frame,
-                          int marker) {
-  const LabelledFrame& labelled = labelling.frames[frame];
-  if (!labelled.template_from_stage || labelled.points[marker] < 0) return nullptr;
-  return &clouds.frames[frame][labelled.points[marker]];
-}
-
 SampleOrigin OriginOf(const CloudPoint* point, SampleState state) {
   if (state == SampleState::kMissing) return SampleOrigin::kGap;
   if (!point) return SampleOrigin::kFilled;
@@ -82,7 +74,7 @@ void CountGaps(const PointClouds& clouds, const Labelling& labelling, int marker
                MarkerReview& review) {
   int gap = 0;
   for (int frame = 0; frame < clouds.num_frames(); ++frame) {
-    gap = PointOf(clouds, labelling, frame, marker) ? 0 : gap + 1;
+    gap = LabelledPoint(clouds, labelling, frame, marker) ? 0 : gap + 1;
     if (gap == 1) ++review.gaps;
     review.longest_gap = std::max(review.longest_gap, gap);
   }
@@ -109,7 +101,7 @@ MarkerReview ReviewMarker(const PointClouds& clouds, const Labelling& labelling,
   review.seen_by_view.assign(array.views().size(), 0);
   std::vector<float> residuals_mm;
   for (int frame = 0; frame < clouds.num_frames(); ++frame) {
-    const CloudPoint* point = PointOf(clouds, labelling, frame, marker);
+    const CloudPoint* point = LabelledPoint(clouds, labelling, frame, marker);
     review.origins.push_back(OriginOf(point, tracks.state(frame, marker)));
     review.margins.push_back(point ? labelling.frames[frame].margins[marker] : kNaN);
     const bool has_residual = point && point->sights.size() > 1;
@@ -141,7 +133,7 @@ std::vector<SubPixelHistogram> SubPixelOf(
   std::vector<SubPixelHistogram> histograms(array.views().size());
   for (int frame = 0; frame < clouds.num_frames(); ++frame)
     for (std::size_t m = 0; m < labelling.frames[frame].points.size(); ++m) {
-      const CloudPoint* point = PointOf(clouds, labelling, frame, static_cast<int>(m));
+      const CloudPoint* point = LabelledPoint(clouds, labelling, frame, static_cast<int>(m));
       if (!point) continue;
       for (const DotSight& sight : point->sights) {
         SubPixelHistogram& histogram = histograms[array.IndexOf(sight.view)];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Bundles a page into one HTML text and that into a C++ source that defines FUNCTION:
 //   node bundle.mjs NODE_MODULES FOLDER FUNCTION template.cc
-// FOLDER holds page.html, main.js and style.css.
-import {readFileSync, writeFileSync} from 'node:fs';
+// FOLDER holds main.js and style.css, and page.html where it has more than the one beside this file.
+import {existsSync, readFileSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
-import {join, resolve} from 'node:path';
+import {dirname, join, resolve} from 'node:path';
+import {fileURLToPath} from 'node:url';
 
 const [modulesPath, sourcePath, functionName, output] = process.argv.slice(2);
 const modules = resolve(modulesPath);
@@ -29,7 +30,9 @@ function bundle(entry) {
 // Whatever is put in as text must not end the element it stands in.
 const script = bundle('main.js').replaceAll('</script', '<\\/script');
 const style = bundle('style.css').replaceAll('</style', '<\\/style');
-const html = readFileSync(join(source, 'page.html'), 'utf8')
+const own = join(source, 'page.html');
+const shared = join(dirname(fileURLToPath(import.meta.url)), 'page.html');
+const html = readFileSync(existsSync(own) ? own : shared, 'utf8')
                  .replace('{{style}}', () => style)
                  .replace('{{script}}', () => script);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/alignment.h"
@@ -190,32 +191,29 @@ SpeakerLookOptions RetroReflective() {
   return look;
 }
 
-// The set-up of Rademan and Niesler, calibrated by a board.
-TEST(RenderedTrackingTest, OneMirror) {
+// Samples of a speaker before mirrors, calibrated from pictures of a board.
+std::pair<RenderedTake, std::vector<Sample>> TrackBeforeMirrors(const SyntheticCameras& cameras,
+                                                                int num_frames, int num_boards) {
   RenderedTakeOptions options;
-  options.cameras = MirrorSetUp(4, 1);
-  options.num_frames = 50;
+  options.cameras = cameras;
+  options.num_frames = num_frames;
   options.film.look = RetroReflective();
-  const RenderedTake take = RenderTake(options);
-  const CameraArray array = CalibrateFromBoards(options.cameras, 18);
-  const TrackedTake tracked = TrackTake(take, array, options.map);
+  RenderedTake take = RenderTake(options);
+  const TrackedTake tracked =
+      TrackTake(take, CalibrateFromBoards(cameras, num_boards), options.map);
   ExpectRightLabels(take, tracked);
-  const std::vector<Sample> samples = SamplesOf(take, tracked);
+  std::vector<Sample> samples = SamplesOf(take, tracked);
   ExpectAccurate(take, samples);
+  return {std::move(take), std::move(samples)};
+}
+
+// The set-up of Rademan and Niesler.
+TEST(RenderedTrackingTest, OneMirror) {
+  const auto [take, samples] = TrackBeforeMirrors(MirrorSetUp(4, 1), 50, 18);
   ExpectHonestDepth(take, samples, "right_corner");
 }
 
-TEST(RenderedTrackingTest, TwoMirrors) {
-  RenderedTakeOptions options;
-  options.cameras = TwoMirrorSetUp(4, 1);
-  options.num_frames = 30;
-  options.film.look = RetroReflective();
-  const RenderedTake take = RenderTake(options);
-  const CameraArray array = CalibrateFromBoards(options.cameras, 24);
-  const TrackedTake tracked = TrackTake(take, array, options.map);
-  ExpectRightLabels(take, tracked);
-  ExpectAccurate(take, SamplesOf(take, tracked));
-}
+TEST(RenderedTrackingTest, TwoMirrors) { TrackBeforeMirrors(TwoMirrorSetUp(4, 1), 30, 24); }
 
 // A tenth of the dots goes, and every picture gets two that are nobody's, somewhere on the face.
 void Disturb(const CameraArray& array, int seed, RenderedTake& take) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The head of the page: what was calibrated, the verdict, what it means, the warnings.
-import {element} from '../src/text.js';
+import {showVerdict} from '../src/verdict.js';
 
 import {countOf, isKnown, isUsed, percent, pixels} from './statistics.js';
 
@@ -77,33 +77,13 @@ function warningsOf({warnings, calibration}) {
   return others;
 }
 
-export function gradeOf(data, warnings) {
-  if (!data.usable) return ['bad', '✗', 'Not usable'];
-  if (warnings.length > 0)
-    return [
-      'caution', '!',
-      warnings.length === 1 ? 'Usable, with a warning' : `Usable, with ${warnings.length} warnings`
-    ];
-  return ['good', '✓', 'Usable'];
-}
-
 export function showSummary(data) {
-  document.title = document.getElementById('title').textContent = titleOf(data);
-  document.getElementById('facts').textContent = factsOf(data).join(' · ');
-  const warnings = warningsOf(data);
-  const [grade, sign, words] = gradeOf(data, warnings);
-  const verdict = document.getElementById('verdict');
-  verdict.classList.add(grade);
-  verdict.append(
-      element(
-          'p', {class: 'grade'}, element('span', {class: 'sign', 'aria-hidden': 'true'}, sign),
-          words),
-      element('p', {class: 'says'}, data.verdict.replace(/^usable: /, '').replace(' +- ', ' ± ')),
-      element('ul', {}, ...meaningOf(data).map((sentence) => element('li', {}, sentence))));
-  if (warnings.length === 0) return;
-  const section = document.getElementById('warnings');
-  section.hidden = false;
-  section.append(
-      element('h2', {}, warnings.length === 1 ? 'One warning' : `${warnings.length} warnings`),
-      element('ul', {}, ...warnings.map((warning) => element('li', {}, warning))));
+  showVerdict({
+    title: titleOf(data),
+    facts: factsOf(data),
+    usable: data.usable,
+    says: [data.verdict.replace(/^usable: /, '').replace(' +- ', ' ± ')],
+    meaning: meaningOf(data),
+    warnings: warningsOf(data).map((warning) => [warning]),
+  });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The verdicts of the stages, what they mean, and the warnings.
-import {gradeOf} from '../calibration/summary.js';
 import {countOf, percent} from '../calibration/statistics.js';
 import {element, formatFixed, formatNumber, withUnit} from '../src/text.js';
+import {showVerdict} from '../src/verdict.js';
 
 import {medianOf} from './parts.js';
 
@@ -35,32 +35,19 @@ function meaningOf({markers, views, doubts}) {
 }
 
 export function showSummary(title, stages, review) {
-  document.title = document.getElementById('title').textContent = title;
   const {rate_hz: rate, frames, views, markers} = review;
-  document.getElementById('facts').textContent = [
-    countOf(markers.length, 'marker'), countOf(frames, 'frame'),
-    `${formatNumber(rate)}\u202fHz, ${formatFixed(frames / rate, 1)}\u202fs`,
-    views.length > 0 ? `views: ${views.join(', ')}` : 'from a file of markers'
-  ].join(' · ');
-  const warnings = stages.flatMap(
-      ({stage, warnings: said}) => said.map((warning) => [stage, warning]));
-  const [grade, sign, words] = gradeOf({usable: stages.every(({usable}) => usable)}, warnings);
-  const verdict = document.getElementById('verdict');
-  verdict.classList.add(grade);
-  verdict.append(
-      element(
-          'p', {class: 'grade'}, element('span', {class: 'sign', 'aria-hidden': 'true'}, sign),
-          words),
-      ...stages.map((stage) => element('p', {class: 'says'}, `${stage.stage}: ${stage.verdict}`)),
-      element('ul', {}, ...meaningOf(review).map((sentence) => element('li', {}, sentence))));
-  if (warnings.length === 0) return;
-  const section = document.getElementById('warnings');
-  section.hidden = false;
-  section.append(
-      element('h2', {}, warnings.length === 1 ? 'One warning' : `${warnings.length} warnings`),
-      element(
-          'ul', {},
-          ...warnings.map(
-              ([stage, warning]) => element(
-                  'li', {}, element('span', {class: 'stage'}, `${stage}: `), warning))));
+  showVerdict({
+    title,
+    facts: [
+      countOf(markers.length, 'marker'), countOf(frames, 'frame'),
+      `${formatNumber(rate)}\u202fHz, ${formatFixed(frames / rate, 1)}\u202fs`,
+      views.length > 0 ? `views: ${views.join(', ')}` : 'from a file of markers'
+    ],
+    usable: stages.every(({usable}) => usable),
+    says: stages.map(({stage, verdict}) => `${stage}: ${verdict}`),
+    meaning: meaningOf(review),
+    warnings: stages.flatMap(
+        ({stage, warnings}) => warnings.map(
+            (warning) => [element('span', {class: 'stage'}, `${stage}: `), warning])),
+  });
 }
