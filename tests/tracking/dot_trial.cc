@@ -27,7 +27,7 @@ TrialPicture PaintTrial(const DotTrial& trial, RandomGenerator& random) {
     for (int column = 0; column < kDotsPerSide; ++column) {
       PaintedDot dot = trial.dot;
       const Eigen::Vector2d corner(column * cell, row * cell);
-      dot.center_px = corner + Eigen::Vector2d::Constant(cell / 2) +
+      dot.center_px = corner + Eigen::Vector2d::Constant(0.5 * cell) +
                       Eigen::Vector2d{random.Uniform(), random.Uniform()};
       if (trial.turns) dot.angle_rad = random.Uniform(0, std::numbers::pi);
       for (int y = row * cell; y < (row + 1) * cell; ++y)
