@@ -36,6 +36,7 @@ struct TrackArguments {
   TemplateInput naming;
   CameraReadOptions read;
   DotDetectorOptions detect;
+  PerspectiveOptions perspective;
   SynchronizeOptions synchronize;
   ReconstructOptions reconstruct;
   LabelOptions label;
@@ -144,9 +145,9 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
       CorrectionsOf(arguments.corrections, kFirstFrame, *array);
   if (!corrections) return tl::unexpected(corrections.error());
   const Result<std::vector<DetectedVideo>> videos =
-      DetectVideos(*array, arguments.paths, arguments.detect);
+      DetectVideos(*array, arguments.paths, arguments.detect, arguments.perspective);
   if (!videos) return tl::unexpected(videos.error());
-  const StageReport detection = DescribeDetection(*videos, arguments.detect);
+  const StageReport detection = DescribeDetection(*videos, arguments.detect, arguments.perspective);
   if (!detection.IsUsable()) return std::vector<StageReport>{detection};
   const Result<TrackedMarkers> tracked =
       WithProgress("tracking", [&] { return Follow(arguments, *array, *videos, *corrections); });
@@ -188,6 +189,7 @@ ExitCode TrackCommand(const std::vector<std::string>& arguments) {
   AddCorrectionsFlag(line, values.corrections);
   line.Stage("read", values.read);
   line.Stage("detect", values.detect);
+  line.Stage("detect", values.perspective);
   line.Stage("synchronize", values.synchronize);
   line.Stage("reconstruct", values.reconstruct);
   line.Stage("label", values.label);

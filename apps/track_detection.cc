@@ -37,8 +37,23 @@ bool IsOverexposed(const ImageView& image) {
   return bright > looked_at / 2;
 }
 
-Result<DetectedVideo> DetectAll(NamedSource& named, const DotDetectorOptions& options,
-                                Progress& progress) {
+// Adds one frame's dots.
+void Detect(const Frame& frame, const Lens& lens, const PerspectiveOptions& perspective,
+            DotDetector& detector, DetectedVideo& result) {
+  std::vector<Dot> dots = detector.Detect(frame.image, frame.picture_from_image);
+  for (Dot& dot : dots) {
+    const double moved_px = CorrectPerspective(lens, perspective, dot);
+    result.perspective2_px2 += moved_px * moved_px;
+  }
+  result.video.pictures.push_back({frame.index, frame.time, std::move(dots)});
+  if (detector.report().too_many) ++result.crowded;
+  if (frame.status == FrameStatus::kCorrupt) ++result.damaged;
+  if (IsOverexposed(frame.image)) ++result.overexposed;
+}
+
+Result<DetectedVideo> DetectAll(NamedSource& named, const Lens& lens,
+                                const DotDetectorOptions& options,
+                                const PerspectiveOptions& perspective, Progress& progress) {
   const FrameSourceInfo info = named.source->info();
   DetectedVideo result;
   result.video = {.camera = named.name,
@@ -59,12 +74,7 @@ Result<DetectedVideo> DetectAll(NamedSource& named, const DotDetectorOptions& op
       return result;
     }
     if (!*frame) return result;
-    result.video.pictures.push_back(
-        {(*frame)->index, (*frame)->time,
-         detector.Detect((*frame)->image, (*frame)->picture_from_image)});
-    if (detector.report().too_many) ++result.crowded;
-    if ((*frame)->status == FrameStatus::kCorrupt) ++result.damaged;
-    if (IsOverexposed((*frame)->image)) ++result.overexposed;
+    Detect(**frame, lens, perspective, detector, result);
     if (info.frames > 0)
       progress.SetPart(static_cast<double>((*frame)->index) / static_cast<double>(info.frames));
   }
@@ -208,7 +218,8 @@ Result<std::vector<NamedSource>> OpenVideosOf(const CameraArray& array,
 
 Result<std::vector<DetectedVideo>> DetectVideos(const CameraArray& array,
                                                 const std::vector<std::string>& paths,
-                                                const DotDetectorOptions& options) {
+                                                const DotDetectorOptions& options,
+                                                const PerspectiveOptions& perspective) {
   Result<std::vector<NamedSource>> sources = OpenVideosOf(array, paths);
   if (!sources) return tl::unexpected(sources.error());
   std::vector<DetectedVideo> videos;
@@ -217,8 +228,9 @@ Result<std::vector<DetectedVideo>> DetectVideos(const CameraArray& array,
     if (const auto same = RefuseOtherSize(array.cameras[camera], named.source->info()); !same)
       return tl::unexpected(same.error());
     auto detected =
-        WithProgress(fmt::format("looking for dots in {}", named.name),
-                     [&](Progress& progress) { return DetectAll(named, options, progress); });
+        WithProgress(fmt::format("looking for dots in {}", named.name), [&](Progress& progress) {
+          return DetectAll(named, array.cameras[camera].lens, options, perspective, progress);
+        });
     if (!detected) return tl::unexpected(detected.error());
     videos.push_back(std::move(*detected));
   }
@@ -226,11 +238,14 @@ Result<std::vector<DetectedVideo>> DetectVideos(const CameraArray& array,
 }
 
 StageReport DescribeDetection(const std::vector<DetectedVideo>& videos,
-                              const DotDetectorOptions& options) {
+                              const DotDetectorOptions& options,
+                              const PerspectiveOptions& perspective) {
   StageReport report;
   report.stage = "detect";
   ReportTable table = {
-      "cameras", {"frames", "dots_a_frame", "median_diameter_px", "saturated_percent"}, {}};
+      "cameras",
+      {"frames", "dots_a_frame", "median_diameter_px", "saturated_percent", "perspective_px"},
+      {}};
   std::size_t frames = 0, dots = 0;
   for (const DetectedVideo& detected : videos) {
     const DotVideo& video = detected.video;
@@ -241,7 +256,9 @@ StageReport DescribeDetection(const std::vector<DetectedVideo>& videos,
                           {static_cast<double>(video.pictures.size()),
                            static_cast<double>(of_video) /
                                static_cast<double>(std::max<std::size_t>(1, video.pictures.size())),
-                           MedianDiameter_px(video), 100 * ShareOfSaturated(video)}});
+                           MedianDiameter_px(video), 100 * ShareOfSaturated(video),
+                           std::sqrt(detected.perspective2_px2 /
+                                     static_cast<double>(std::max<std::size_t>(1, of_video)))}});
     AddWarnings(detected, report.warnings);
   }
   const std::string forbids = WhatForbids(videos);
@@ -249,6 +266,7 @@ StageReport DescribeDetection(const std::vector<DetectedVideo>& videos,
   report.verdict = report.usable ? fmt::format("{} dots in {} frames", dots, frames) : forbids;
   report.tables = {table};
   report.options = EchoOptions(options);
+  for (auto& entry : EchoOptions(perspective)) report.options.push_back(std::move(entry));
   return report;
 }
 

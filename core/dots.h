@@ -14,9 +14,8 @@ namespace articap {
 // All lengths are of the camera's picture (PictureFromImage has been applied), px, as the lens
 // distorts them.
 struct Dot {
-  // The middle of the ellipse. Where perspective moves it away from where the marker's own centre
-  // appears, that is left to those who know the marker's distance and direction
-  // (tracking/perspective_bias.h).
+  // The middle of the ellipse; once CorrectPerspective() has been through, where the marker's own
+  // centre appears.
   Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
   // Of the centre, from the noise of the pixels.
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();

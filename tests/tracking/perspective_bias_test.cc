@@ -5,57 +5,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <functional>
-#include <numbers>
 
 #include "synthetic/random.h"
+#include "tests/tracking/marker_outline.h"
 
 namespace articap {
 namespace {
-
-using Hits = std::function<bool(const Eigen::Vector3d& direction)>;
-
-Hits HitsSphere(const Eigen::Vector3d& center_mm, double radius_mm) {
-  return [=](const Eigen::Vector3d& direction) {
-    return direction.normalized().cross(center_mm).norm() < radius_mm;
-  };
-}
-
-Hits HitsDisc(const Eigen::Vector3d& center_mm, double radius_mm, const Eigen::Vector3d& normal) {
-  return [=](const Eigen::Vector3d& direction) {
-    const double distance = normal.dot(center_mm) / normal.dot(direction);
-    return distance > 0 && (distance * direction - center_mm).norm() < radius_mm;
-  };
-}
-
-// The middle of what rays of sight through the picture meet: its border is sought in 720 directions
-// from a point inside.
-Eigen::Vector2d MiddleOf(const Lens& lens, const Hits& hits, const Eigen::Vector2d& inside_px) {
-  constexpr int kDirections = 720;
-  std::vector<Eigen::Vector2d> border;
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kDirections;
-    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
-    double near_px = 0, far_px = 500;
-    for (int step = 0; step < 60; ++step) {
-      const double middle_px = (near_px + far_px) / 2;
-      const auto ray = Unproject(lens, inside_px + middle_px * direction);
-      (ray && hits(*ray) ? near_px : far_px) = middle_px;
-    }
-    border.push_back(near_px * direction);
-  }
-  // Of the polygon's area.
-  double area = 0;
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < border.size(); ++i) {
-    const Eigen::Vector2d& a = border[i];
-    const Eigen::Vector2d& b = border[(i + 1) % border.size()];
-    const double cross = a.x() * b.y() - a.y() * b.x();
-    area += cross;
-    sum += cross * (a + b) / 3;
-  }
-  return inside_px + sum / area;
-}
 
 Lens PlainLens() { return {1500, 1480, 960, 540, {}}; }
 
@@ -73,7 +28,7 @@ TEST(PerspectiveBiasTest, IsExactForSpheres) {
     const double diameter_mm = random.Uniform(2, 15);
     const Eigen::Vector2d appears = *Project(lens, center);
     const Eigen::Vector2d truth =
-        MiddleOf(lens, HitsSphere(center, diameter_mm / 2), appears) - appears;
+        OutlineOf(lens, HitsSphere(center, diameter_mm / 2), appears).middle_px - appears;
     const auto bias = PerspectiveBias(lens, center, {MarkerKind::kSphere, diameter_mm, {}});
     ASSERT_TRUE(bias);
     EXPECT_LT((*bias - truth).norm(), 1e-6 + 1e-4 * truth.norm());
@@ -91,7 +46,7 @@ TEST(PerspectiveBiasTest, IsExactForDiscs) {
     const Eigen::Vector3d normal = -center.normalized() + 0.8 * random.Direction();
     const Eigen::Vector2d appears = *Project(lens, center);
     const Eigen::Vector2d truth =
-        MiddleOf(lens, HitsDisc(center, diameter_mm / 2, normal), appears) - appears;
+        OutlineOf(lens, HitsDisc(center, diameter_mm / 2, normal), appears).middle_px - appears;
     const auto bias = PerspectiveBias(lens, center, {MarkerKind::kDisc, diameter_mm, normal});
     ASSERT_TRUE(bias);
     EXPECT_LT((*bias - truth).norm(), 1e-6 + 1e-4 * truth.norm());
@@ -109,7 +64,8 @@ TEST(PerspectiveBiasTest, DistortionBendsTheOutline) {
     const Eigen::Vector3d center = RandomCenter(random, lens);
     const Eigen::Vector3d normal = -center.normalized() + 0.8 * random.Direction();
     const Eigen::Vector2d appears = *Project(lens, center);
-    const Eigen::Vector2d truth = MiddleOf(lens, HitsDisc(center, 4, normal), appears) - appears;
+    const Eigen::Vector2d truth =
+        OutlineOf(lens, HitsDisc(center, 4, normal), appears).middle_px - appears;
     const auto bias = PerspectiveBias(lens, center, {MarkerKind::kDisc, 8, normal});
     ASSERT_TRUE(bias);
     sum2 += truth.squaredNorm();
