@@ -155,27 +155,34 @@ void CopyPixel(PixelFormat format, const std::uint8_t* row, int x, std::uint8_t*
   }
 }
 
-// For every pixel of the picture along an axis, the nearest one of the image.
-std::vector<int> NearestInImage(int size, double scale, double offset_px, int image_size) {
+// For every pixel of the picture along an axis, from the first, the nearest one of the image; -1
+// beyond its border.
+std::vector<int> NearestInImage(int first, int size, double scale, double offset_px,
+                                int image_size) {
   std::vector<int> nearest;
   nearest.reserve(static_cast<std::size_t>(size));
-  for (int at = 0; at < size; ++at)
+  for (int at = first; at < first + size; ++at) {
+    const double in_image = (at - offset_px) / scale;
+    const bool is_beyond = in_image <= -1 || in_image >= image_size;
     nearest.push_back(
-        std::clamp(static_cast<int>(std::lround((at - offset_px) / scale)), 0, image_size - 1));
+        is_beyond ? -1 : std::clamp(static_cast<int>(std::lround(in_image)), 0, image_size - 1));
+  }
   return nearest;
 }
 
 }  // namespace
 
-Picture PictureOf(const Frame& frame, int width, int height) {
-  Picture picture = FilledPicture(width, height, Eigen::Vector3f::Zero());
+Picture PictureOf(const Frame& frame, int left, int top, int width, int height) {
+  Picture picture = FilledPicture(width, height, Eigen::Vector3f::Constant(0.03F));
   const ImageView& image = frame.image;
   const PictureFromImage& from = frame.picture_from_image;
-  const auto columns = NearestInImage(width, from.scale.x(), from.offset_px.x(), image.width);
-  const auto rows = NearestInImage(height, from.scale.y(), from.offset_px.y(), image.height);
+  const auto columns = NearestInImage(left, width, from.scale.x(), from.offset_px.x(), image.width);
+  const auto rows = NearestInImage(top, height, from.scale.y(), from.offset_px.y(), image.height);
   for (int y = 0; y < height; ++y) {
+    if (rows[y] < 0) continue;
     const std::uint8_t* const row = image.row(rows[y]);
-    for (int x = 0; x < width; ++x) CopyPixel(image.format, row, columns[x], picture.pixel(x, y));
+    for (int x = 0; x < width; ++x)
+      if (columns[x] >= 0) CopyPixel(image.format, row, columns[x], picture.pixel(x, y));
   }
   return picture;
 }

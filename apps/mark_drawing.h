@@ -10,9 +10,10 @@
 
 namespace articap {
 
-// A frame as the camera's picture, in colour: square pixels, every row (PictureFromImage), the
-// nearest pixel of the file for each.
-Picture PictureOf(const Frame& frame, int width, int height);
+// A part of a frame as the camera's picture, in colour: square pixels, every row
+// (PictureFromImage), the nearest pixel of the file for each; what lies beyond the image is dark
+// grey.
+Picture PictureOf(const Frame& frame, int left, int top, int width, int height);
 
 // How a part of a camera's picture is shown: from (left, top) on, every pixel `zoom` times as
 // large.

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "apps/output_names.h"
 #include "apps/progress.h"
+#include "core/parallel.h"
 #include "render/picture.h"
 #include "report/tracking_page.h"
 #include "tracking/review_json.h"
@@ -20,6 +22,30 @@ void AddReports(const std::string& output, const std::string& json,
   const std::string title = std::filesystem::path(output).stem().string();
   outputs.Add(Beside(output, ".report.json"), json);
   outputs.Add(Beside(output, ".report.html"), TrackingPage(title, json, pngs));
+}
+
+struct DoubtPngs {
+  std::vector<std::string> pictures;  // one a doubt
+  std::string sheet;                  // of all
+};
+
+Result<DoubtPngs> EncodeDoubts(const PicturedTake& take, const std::vector<Doubt>& doubts,
+                               const std::vector<Picture>& pictures) {
+  const int count = static_cast<int>(pictures.size());
+  std::vector<Result<std::string>> pngs(pictures.size() + 1);
+  // The sheet is the longest, and comes first.
+  ParallelFor(count + 1, 0, [&](int item) {
+    const int png = count - item;
+    pngs[png] = EncodePng(png == count ? DoubtSheet(take, doubts, pictures) : pictures[png]);
+  });
+  DoubtPngs result;
+  for (Result<std::string>& png : pngs) {
+    if (!png) return tl::unexpected(png.error());
+    result.pictures.push_back(*std::move(png));
+  }
+  result.sheet = std::move(result.pictures.back());
+  result.pictures.pop_back();
+  return result;
 }
 
 void AddOverlays(const std::string& output, const PicturedTake& take, const ShowOptions& show,
@@ -54,14 +80,10 @@ Result<void> AddReview(const std::string& output, const TakeReview& review,
     const auto pictures =
         WithProgress("drawing doubtful frames", [&] { return DoubtPictures(take, shown); });
     if (!pictures) return tl::unexpected(pictures.error());
-    for (const Picture& picture : *pictures) {
-      const auto png = EncodePng(picture);
-      if (!png) return tl::unexpected(png.error());
-      pngs.push_back(*png);
-    }
-    const auto sheet = EncodePng(DoubtSheet(take, shown, *pictures));
-    if (!sheet) return tl::unexpected(sheet.error());
-    outputs.Add(Beside(output, ".contact.png"), *sheet);
+    auto encoded = EncodeDoubts(take, shown, *pictures);
+    if (!encoded) return tl::unexpected(encoded.error());
+    outputs.Add(Beside(output, ".contact.png"), std::move(encoded->sheet));
+    pngs = std::move(encoded->pictures);
   }
   AddReports(output, ReviewJson(review, spread, reports), pngs, outputs);
   if (show.overlay) AddOverlays(output, take, show, outputs);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "apps/calibrate_input.h"
 #include "apps/camera_input.h"
@@ -35,8 +36,7 @@ struct TrackArguments {
   std::string output, cameras, config, corrections;
   TemplateInput naming;
   CameraReadOptions read;
-  DotDetectorOptions detect;
-  PerspectiveOptions perspective;
+  DetectionOptions detect;
   SynchronizeOptions synchronize;
   ReconstructOptions reconstruct;
   LabelOptions label;
@@ -45,7 +45,7 @@ struct TrackArguments {
 };
 
 Result<void> CheckOptions(const TrackArguments& arguments) {
-  if (auto checked = CheckOptions(arguments.detect); !checked) return checked;
+  if (auto checked = CheckOptions(arguments.detect.dots); !checked) return checked;
   if (auto checked = CheckOptions(arguments.synchronize); !checked) return checked;
   if (auto checked = CheckOptions(arguments.reconstruct); !checked) return checked;
   if (auto checked = CheckOptions(arguments.fill); !checked) return checked;
@@ -62,7 +62,7 @@ struct TrackedMarkers {
 };
 
 Result<TrackedMarkers> Follow(const TrackArguments& arguments, const CameraArray& array,
-                              const std::vector<DetectedVideo>& detected,
+                              std::span<const DetectedVideo> detected,
                               AppliedCorrections& corrections) {
   TrackedMarkers result;
   for (const DetectedVideo& one : detected) result.videos.push_back(one.video);
@@ -107,15 +107,16 @@ std::vector<std::filesystem::path> InputsOf(const TrackArguments& arguments) {
 }
 
 Result<void> WriteTracked(const TrackArguments& arguments, const CameraArray& array,
-                          const TrackedMarkers& tracked, const MarkerRecording& markers,
-                          MarkerFormat format, const std::vector<StageReport>& reports) {
+                          const std::vector<DetectedVideo>& videos, const TrackedMarkers& tracked,
+                          const MarkerRecording& markers, MarkerFormat format,
+                          const std::vector<StageReport>& reports) {
   const auto& instants = tracked.dots.instants;
   const StageTracks& tracks = markers.tracks;
   const TakeReview review = ReviewOf(tracked.clouds, tracked.labelling, markers, array, instants);
   const PicturedTake take = {
       .array = array,
       .videos = tracked.videos,
-      .open = [&] { return OpenVideosOf(array, arguments.paths); },
+      .open = [&] { return OpenAgain(array, arguments.paths, videos); },
       .names = tracks.names(),
       .marks = {array, tracked.clouds, tracked.labelling, tracks, review, instants},
       .rate_hz = tracks.rate_hz(),
@@ -145,9 +146,9 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
       CorrectionsOf(arguments.corrections, kFirstFrame, *array);
   if (!corrections) return tl::unexpected(corrections.error());
   const Result<std::vector<DetectedVideo>> videos =
-      DetectVideos(*array, arguments.paths, arguments.detect, arguments.perspective);
+      DetectVideos(*array, arguments.paths, arguments.detect, RoomForPictures(arguments.show));
   if (!videos) return tl::unexpected(videos.error());
-  const StageReport detection = DescribeDetection(*videos, arguments.detect, arguments.perspective);
+  const StageReport detection = DescribeDetection(*videos, arguments.detect);
   if (!detection.IsUsable()) return std::vector<StageReport>{detection};
   const Result<TrackedMarkers> tracked =
       WithProgress("tracking", [&] { return Follow(arguments, *array, *videos, *corrections); });
@@ -162,7 +163,8 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
     return Fail(fmt::format("the recording has {}; write another format", *limit));
   std::vector<StageReport> reports = {detection, report, filled->report};
   if (!corrections->empty()) reports.push_back(corrections->Report());
-  if (const auto written = WriteTracked(arguments, *array, *tracked, markers, *format, reports);
+  if (const auto written =
+          WriteTracked(arguments, *array, *videos, *tracked, markers, *format, reports);
       !written)
     return tl::unexpected(written.error());
   for (const std::string& loss : LossesOf(markers, *format)) reports[1].warnings.push_back(loss);
@@ -188,8 +190,8 @@ ExitCode TrackCommand(const std::vector<std::string>& arguments) {
   AddTemplateInput(line, values.naming);
   AddCorrectionsFlag(line, values.corrections);
   line.Stage("read", values.read);
-  line.Stage("detect", values.detect);
-  line.Stage("detect", values.perspective);
+  line.Stage("detect", values.detect.dots);
+  line.Stage("detect", values.detect.perspective);
   line.Stage("synchronize", values.synchronize);
   line.Stage("reconstruct", values.reconstruct);
   line.Stage("label", values.label);

@@ -6,79 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "apps/progress.h"
 
 namespace articap {
 namespace {
-
-// Whether most of a picture is as bright as the file can say, by a hundredth of its pixels.
-bool IsOverexposed(const ImageView& image) {
-  constexpr int kStep = 10;
-  constexpr int kBrightest = 235;  // white, of video of limited range
-  const int bytes = BytesPerPixel(image.format);
-  int looked_at = 0, bright = 0;
-  for (int y = 0; y < image.height; y += kStep)
-    for (int x = 0; x < image.width; x += kStep) {
-      const std::uint8_t* const pixel = image.row(y) + static_cast<std::ptrdiff_t>(x) * bytes;
-      std::uint16_t wide = 0;
-      if (image.format == PixelFormat::kGray16) std::memcpy(&wide, pixel, sizeof wide);
-      const int level = image.format == PixelFormat::kGray16 ? wide >> 8
-                        : image.format == PixelFormat::kRgb8
-                            ? std::min({pixel[0], pixel[1], pixel[2]})
-                            : pixel[0];
-      ++looked_at;
-      if (level >= kBrightest) ++bright;
-    }
-  return bright > looked_at / 2;
-}
-
-// Adds one frame's dots.
-void Detect(const Frame& frame, const Lens& lens, const PerspectiveOptions& perspective,
-            DotDetector& detector, DetectedVideo& result) {
-  std::vector<Dot> dots = detector.Detect(frame.image, frame.picture_from_image);
-  for (Dot& dot : dots) {
-    const double moved_px = CorrectPerspective(lens, perspective, dot);
-    result.perspective2_px2 += moved_px * moved_px;
-  }
-  result.video.pictures.push_back({frame.index, frame.time, std::move(dots)});
-  if (detector.report().too_many) ++result.crowded;
-  if (frame.status == FrameStatus::kCorrupt) ++result.damaged;
-  if (IsOverexposed(frame.image)) ++result.overexposed;
-}
-
-Result<DetectedVideo> DetectAll(NamedSource& named, const Lens& lens,
-                                const DotDetectorOptions& options,
-                                const PerspectiveOptions& perspective, Progress& progress) {
-  const FrameSourceInfo info = named.source->info();
-  DetectedVideo result;
-  result.video = {.camera = named.name,
-                  .width = info.width,
-                  .height = info.height,
-                  .rate_hz = info.rate_hz,
-                  .constant_rate = info.constant_rate};
-  result.notes = info.notes;
-  result.frames_promised = info.frames;
-  DotDetector detector(options);
-  while (true) {
-    Result<std::optional<Frame>> frame = named.source->Next();
-    if (!frame) {
-      // What came before stays good: half a recording is better than none.
-      if (result.video.pictures.empty()) return tl::unexpected(frame.error());
-      result.notes.push_back(fmt::format("{}; tracked up to there", frame.error().message));
-      result.frames_promised = -1;
-      return result;
-    }
-    if (!*frame) return result;
-    Detect(**frame, lens, perspective, detector, result);
-    if (info.frames > 0)
-      progress.SetPart(static_cast<double>((*frame)->index) / static_cast<double>(info.frames));
-  }
-}
 
 Result<void> RefuseOtherSize(const Camera& camera, const FrameSourceInfo& info) {
   if (camera.width == info.width && camera.height == info.height) return {};
@@ -216,10 +150,22 @@ Result<std::vector<NamedSource>> OpenVideosOf(const CameraArray& array,
   return ordered;
 }
 
+Result<std::vector<NamedSource>> OpenAgain(const CameraArray& array,
+                                           const std::vector<std::string>& paths,
+                                           const std::vector<DetectedVideo>& videos) {
+  const bool all_kept = std::all_of(videos.begin(), videos.end(),
+                                    [](const DetectedVideo& video) { return video.pictures; });
+  if (!all_kept) return OpenVideosOf(array, paths);
+  std::vector<NamedSource> sources;
+  for (const DetectedVideo& video : videos)
+    sources.push_back({video.video.camera, OpenStored(video.pictures)});
+  return sources;
+}
+
 Result<std::vector<DetectedVideo>> DetectVideos(const CameraArray& array,
                                                 const std::vector<std::string>& paths,
-                                                const DotDetectorOptions& options,
-                                                const PerspectiveOptions& perspective) {
+                                                const DetectionOptions& options,
+                                                std::size_t room_bytes) {
   Result<std::vector<NamedSource>> sources = OpenVideosOf(array, paths);
   if (!sources) return tl::unexpected(sources.error());
   std::vector<DetectedVideo> videos;
@@ -227,9 +173,10 @@ Result<std::vector<DetectedVideo>> DetectVideos(const CameraArray& array,
     NamedSource& named = (*sources)[camera];
     if (const auto same = RefuseOtherSize(array.cameras[camera], named.source->info()); !same)
       return tl::unexpected(same.error());
+    const Lens& lens = array.cameras[camera].lens;
     auto detected =
         WithProgress(fmt::format("looking for dots in {}", named.name), [&](Progress& progress) {
-          return DetectAll(named, array.cameras[camera].lens, options, perspective, progress);
+          return DetectVideo(named, lens, options, room_bytes, progress);
         });
     if (!detected) return tl::unexpected(detected.error());
     videos.push_back(std::move(*detected));
@@ -238,8 +185,7 @@ Result<std::vector<DetectedVideo>> DetectVideos(const CameraArray& array,
 }
 
 StageReport DescribeDetection(const std::vector<DetectedVideo>& videos,
-                              const DotDetectorOptions& options,
-                              const PerspectiveOptions& perspective) {
+                              const DetectionOptions& options) {
   StageReport report;
   report.stage = "detect";
   ReportTable table = {
@@ -265,8 +211,8 @@ StageReport DescribeDetection(const std::vector<DetectedVideo>& videos,
   report.usable = forbids.empty();
   report.verdict = report.usable ? fmt::format("{} dots in {} frames", dots, frames) : forbids;
   report.tables = {table};
-  report.options = EchoOptions(options);
-  for (auto& entry : EchoOptions(perspective)) report.options.push_back(std::move(entry));
+  report.options = EchoOptions(options.dots);
+  for (auto& entry : EchoOptions(options.perspective)) report.options.push_back(std::move(entry));
   return report;
 }
 

@@ -50,13 +50,13 @@ std::vector<int> MarkersOf(const Doubt& doubt) {
   return doubt.other < 0 ? std::vector{doubt.marker} : std::vector{doubt.marker, doubt.other};
 }
 
-// A view of a doubt.
+// A view of a doubt, in a frame of its camera.
 Picture Cell(const PicturedTake& take, const Doubt& doubt, const FrameMarks& marks,
-             const MarkerMark& mark, const Picture& picture) {
+             const MarkerMark& mark, const Frame& frame) {
   const Magnification shown =
       MagnificationAround(mark.place_px, UsualDiameter_px(marks, mark.view.camera));
   const int size = kCell_px / shown.zoom;
-  Picture cell = Enlarged(picture, shown.left, shown.top, size, size, shown.zoom);
+  Picture cell = Enlarged(PictureOf(frame, shown.left, shown.top, size, size), shown.zoom);
   DrawMarks(marks, mark.view.camera, shown, {take.names, MarkersOf(doubt), 1, true}, cell);
   DrawEdgedText(cell, take.array.NameOf(mark.view), 4, 4, 1, kWhite);
   return cell;
@@ -109,6 +109,8 @@ void VisitOptions(ShowOptions& options, OptionVisitor& visit) {
   visit("doubtful", options.doubtful, "places of doubt on the contact sheet; 0: no sheet");
   visit("overlay", options.overlay, "write videos with what was found in them");
   visit("overlay_crf", options.overlay_crf, "their quality: 0 best to 51 worst");
+  visit("memory_mb", options.memory_mb,
+        "what pictures kept for these may take; longer videos are read twice; MB");
 }
 
 Result<void> CheckOptions(const ShowOptions& options) {
@@ -119,7 +121,14 @@ Result<void> CheckOptions(const ShowOptions& options) {
   if (!(options.overlay_crf >= 0 && options.overlay_crf <= 51))
     return Fail(
         fmt::format("overlay_crf is {}; it must lie between 0 and 51", options.overlay_crf));
+  if (options.memory_mb < 0)
+    return Fail(fmt::format("memory_mb is {}; it must not be negative", options.memory_mb));
   return {};
+}
+
+std::size_t RoomForPictures(const ShowOptions& options) {
+  constexpr std::size_t kMegabyte = 1'000'000;
+  return options.doubtful > 0 || options.overlay ? kMegabyte * options.memory_mb : 0;
 }
 
 std::int64_t PicturedTake::PictureAt(int camera, int instant) const {
@@ -150,13 +159,12 @@ Result<std::vector<Picture>> DoubtPictures(const PicturedTake& take,
     ReadFrames(source, [&](const Frame& frame) {
       const auto [first, end] = wanted.equal_range(frame.index);
       if (first == end) return !wanted.empty();
-      const Picture picture = PictureOf(frame, source.info().width, source.info().height);
       for (auto it = first; it != end; ++it) {
         const Doubt& doubt = doubts[it->second];
         const FrameMarks marks = take.marks.At(doubt.frame);
         for (const MarkerMark& mark : marks.markers)
           if (mark.marker == doubt.marker && mark.view.camera == camera)
-            cells[it->second].push_back(Cell(take, doubt, marks, mark, picture));
+            cells[it->second].push_back(Cell(take, doubt, marks, mark, frame));
       }
       wanted.erase(first, end);
       return !wanted.empty();
@@ -201,8 +209,8 @@ Result<void> WriteOverlay(const PicturedTake& take, int camera, double crf,
   Result<void> written;
   ReadFrames(source, [&](const Frame& frame) {
     const int instant = take.InstantOf(camera, frame.time);
-    Picture picture = PictureOf(frame, info.width, info.height);
-    if (zoom > 1) picture = Enlarged(picture, 0, 0, info.width, info.height, zoom);
+    Picture picture = PictureOf(frame, 0, 0, info.width, info.height);
+    if (zoom > 1) picture = Enlarged(picture, zoom);
     DrawMarks(take.marks.At(instant), camera, {0, 0, zoom}, {take.names, {}, 2, false}, picture);
     DrawCaption(take, instant, 2, picture);
     written =

@@ -21,9 +21,13 @@ struct ShowOptions {
   int doubtful = 24;     // places of doubt on the contact sheet; 0: no sheet
   bool overlay = false;  // videos with what was found in them
   double overlay_crf = 20;
+  // Pictures of the videos may take so much memory; else the videos are read twice.
+  int memory_mb = 1000;
 };
 void VisitOptions(ShowOptions& options, OptionVisitor& visit);
 Result<void> CheckOptions(const ShowOptions& options);
+// For pictures that will be looked at again; none where none will. Bytes.
+std::size_t RoomForPictures(const ShowOptions& options);
 
 // Opens the videos of all cameras, in their order, at their first frames.
 using OpenVideos = std::function<Result<std::vector<NamedSource>>()>;

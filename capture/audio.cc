@@ -41,13 +41,12 @@ Result<std::optional<Picture>> FindPictures(const std::vector<fs::path>& parts) 
   if ((*input)->video_stream() == nullptr) return std::nullopt;
   VideoOptions options;
   options.fields = FieldMode::kFrames;
-  const auto facts = libav::ProbeVideo(parts, options);
-  if (!facts) return tl::unexpected(facts.error());
-  const auto decoder = StreamDecoder::Open(facts->groups[0], StreamKind::kVideo);
-  if (!decoder) return tl::unexpected(decoder.error());
-  Result<bool> more = (*decoder)->Next();
-  while (!more) more = (*decoder)->Next();
-  return Picture{facts->groups, (*decoder)->time().value_or(nanoseconds(0))};
+  const auto probed = libav::ProbeVideo(parts, options);
+  if (!probed) return tl::unexpected(probed.error());
+  StreamDecoder& decoder = *probed->decoder;
+  Result<bool> more = decoder.Next();
+  while (!more) more = decoder.Next();
+  return Picture{probed->facts.groups, decoder.time().value_or(nanoseconds(0))};
 }
 
 // Puts decoded pieces one behind the other, by the file's times.

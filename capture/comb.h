@@ -43,11 +43,14 @@ class CombMeter {
     double change = 0, beside = 0, two_away = 0;
     double top_then_bottom = 0, bottom_then_top = 0;
   };
-  void Compare(const std::vector<float>& next);
+  void Compare(const std::vector<std::uint8_t>& next);
+  // `changes`: of row y, those of the rows beside it before and behind.
+  void CompareRow(const std::vector<std::uint8_t>& next, const std::int16_t* changes, int threshold,
+                  int y);
 
   int width_ = 0;
   int height_ = 0;
-  std::vector<float> last_;  // grey levels of 8 bits
+  std::vector<std::uint8_t> last_;  // grey levels
   Sums sums_;
 };
 

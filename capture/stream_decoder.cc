@@ -65,7 +65,40 @@ Result<std::unique_ptr<StreamDecoder>> StreamDecoder::Open(
   return decoder;
 }
 
+void StreamDecoder::KeepForRestart(std::size_t most_bytes) {
+  keeps_ = true;
+  room_bytes_ = most_bytes;
+}
+
+bool StreamDecoder::Restart() { return std::exchange(keeps_, false); }
+
+void StreamDecoder::Keep() {
+  std::size_t bytes = 0;
+  for (const AVBufferRef* const buffer : frame_->buf)
+    if (buffer != nullptr) bytes += buffer->size;
+  if (bytes > room_bytes_) return KeepNothing();
+  room_bytes_ -= bytes;
+  kept_.emplace_back(av_frame_clone(frame_.get()));
+}
+
+void StreamDecoder::KeepNothing() {
+  keeps_ = false;
+  kept_.clear();
+}
+
 Result<bool> StreamDecoder::Next() {
+  if (!keeps_ && !kept_.empty()) {
+    frame_ = std::move(kept_.front());
+    kept_.pop_front();
+    return true;
+  }
+  Result<bool> more = Decode();
+  if (keeps_ && !more) KeepNothing();  // the fault has to come again
+  if (keeps_ && *more) Keep();
+  return more;
+}
+
+Result<bool> StreamDecoder::Decode() {
   while (true) {
     const int received = avcodec_receive_frame(codec_.get(), frame_.get());
     if (received == 0) return true;

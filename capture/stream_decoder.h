@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -28,6 +30,12 @@ class StreamDecoder {
   // on behind it.
   Result<bool> Next();
 
+  // What is decoded from the beginning on is kept, up to so many bytes, until Restart() gives it
+  // again. To be called before the first Next().
+  void KeepForRestart(std::size_t most_bytes);
+  // Back to the beginning; false where that was not kept, or was faulty.
+  bool Restart();
+
   const AVFrame& frame() const { return *frame_; }
   bool is_corrupt() const;  // this frame
   // On the clock of the file; nothing where the file does not say.
@@ -41,6 +49,9 @@ class StreamDecoder {
 
  private:
   StreamDecoder() = default;
+  Result<bool> Decode();
+  void Keep();
+  void KeepNothing();
   // Hands the decoder its next packet, or that there is none.
   Result<void> Feed();
   // Whether the packet is known to be damaged, which the decoder does not tell.
@@ -53,6 +64,9 @@ class StreamDecoder {
   Owner<AVPacket> packet_;
   bool has_checksums_ = false;            // FFV1 whose slices were whole
   std::set<std::int64_t> damaged_times_;  // of packets, as they are shown
+  std::deque<Owner<AVFrame>> kept_;
+  bool keeps_ = false;
+  std::size_t room_bytes_ = 0;
 };
 
 }  // namespace articap::libav

@@ -45,12 +45,13 @@ FrameSourceInfo InfoOf(const VideoFacts& facts, const std::string& name) {
 
 class VideoSource : public FrameSource {
  public:
-  VideoSource(VideoFacts facts, const VideoOptions& options)
-      : facts_(std::move(facts)),
+  VideoSource(libav::ProbedVideo probed, const VideoOptions& options)
+      : facts_(std::move(probed.facts)),
         options_(options),
         info_(InfoOf(facts_, facts_.groups[0][0].string())),
         pixels_(options.color, facts_.quarter_turns),
-        times_(NewTimes()) {}
+        times_(NewTimes()),
+        decoder_(std::move(probed.decoder)) {}
 
   const FrameSourceInfo& info() const override { return info_; }
   Result<std::optional<Frame>> Next() override;
@@ -199,9 +200,9 @@ void VisitOptions(VideoOptions& options, OptionVisitor& visit) {
 
 Result<std::unique_ptr<FrameSource>> OpenVideo(const std::vector<std::filesystem::path>& parts,
                                                const VideoOptions& options) {
-  Result<VideoFacts> facts = libav::ProbeVideo(parts, options);
-  if (!facts) return tl::unexpected(facts.error());
-  return std::make_unique<VideoSource>(*std::move(facts), options);
+  Result<libav::ProbedVideo> probed = libav::ProbeVideo(parts, options);
+  if (!probed) return tl::unexpected(probed.error());
+  return std::make_unique<VideoSource>(*std::move(probed), options);
 }
 
 }  // namespace articap

@@ -278,21 +278,30 @@ void FindRate(const AVStream& stream, const Times& times, VideoFacts& facts) {
 
 }  // namespace
 
-Result<VideoFacts> ProbeVideo(const std::vector<fs::path>& parts, const VideoOptions& options) {
+Result<ProbedVideo> ProbeVideo(const std::vector<fs::path>& parts, const VideoOptions& options) {
+  constexpr std::size_t kMostKept_bytes = 100'000'000;
   Result<VideoFacts> facts = LookIntoParts(parts);
-  if (!facts) return facts;
-  const auto decoder = StreamDecoder::Open(facts->groups[0], StreamKind::kVideo);
-  if (!decoder) return tl::unexpected(decoder.error());
-  facts->tick = (*decoder)->tick();
-  FindTurns((*decoder)->stream(), *facts);
-  Result<FirstPictures> first = LookAtPictures(**decoder, options.fields, *facts);
+  if (!facts) return tl::unexpected(facts.error());
+  auto opened = StreamDecoder::Open(facts->groups[0], StreamKind::kVideo);
+  if (!opened) return tl::unexpected(opened.error());
+  std::unique_ptr<StreamDecoder> decoder = *std::move(opened);
+  decoder->KeepForRestart(kMostKept_bytes);
+  facts->tick = decoder->tick();
+  FindTurns(decoder->stream(), *facts);
+  Result<FirstPictures> first = LookAtPictures(*decoder, options.fields, *facts);
   if (!first) return tl::unexpected(first.error());
-  FindRate((*decoder)->stream(), first->times, *facts);
+  FindRate(decoder->stream(), first->times, *facts);
   facts->fields = options.fields;
-  if (options.fields != FieldMode::kAuto) return facts;
-  first->flags.AddContainer((*decoder)->stream().codecpar->field_order);
-  facts->fields = DecideFields(first->flags, first->comb.evidence(), facts->notes);
-  return facts;
+  if (options.fields == FieldMode::kAuto) {
+    first->flags.AddContainer(decoder->stream().codecpar->field_order);
+    facts->fields = DecideFields(first->flags, first->comb.evidence(), facts->notes);
+  }
+  if (!decoder->Restart()) {
+    opened = StreamDecoder::Open(facts->groups[0], StreamKind::kVideo);
+    if (!opened) return tl::unexpected(opened.error());
+    decoder = *std::move(opened);
+  }
+  return ProbedVideo{*std::move(facts), std::move(decoder)};
 }
 
 }  // namespace libav

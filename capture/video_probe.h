@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "capture/frame_pixels.h"
+#include "capture/stream_decoder.h"
 #include "capture/video.h"
 #include "core/result.h"
 
@@ -30,8 +32,13 @@ struct VideoFacts {
   std::vector<std::string> notes;
 };
 
-Result<VideoFacts> ProbeVideo(const std::vector<std::filesystem::path>& parts,
-                              const VideoOptions& options);
+// The facts, and a decoder of the first group that has just begun.
+struct ProbedVideo {
+  VideoFacts facts;
+  std::unique_ptr<StreamDecoder> decoder;
+};
+Result<ProbedVideo> ProbeVideo(const std::vector<std::filesystem::path>& parts,
+                               const VideoOptions& options);
 
 // Where the pixels of a picture, or of its fields, lie in the turned picture of square pixels.
 PictureFromImage PictureFromRows(const VideoFacts& facts, Rows rows);

@@ -81,16 +81,17 @@ void DrawEdgedText(Picture& picture, std::string_view text, int x, int y, int sc
   DrawText(picture, text, x, y, scale, linear_color);
 }
 
-Picture Enlarged(const Picture& picture, int left, int top, int width, int height, int zoom) {
+Picture Enlarged(const Picture& picture, int zoom) {
   ARTICAP_CHECK_GT(zoom, 0);
-  Picture part = FilledPicture(width * zoom, height * zoom, Eigen::Vector3f::Constant(0.03F));
-  const int first_x = std::max(0, -left), end_x = std::min(width, picture.width - left);
-  for (int y = std::max(0, -top); y < std::min(height, picture.height - top); ++y)
-    for (int row = y * zoom; row < (y + 1) * zoom; ++row)
-      for (int x = first_x; x < end_x; ++x)
-        for (int column = x * zoom; column < (x + 1) * zoom; ++column)
-          std::copy_n(picture.pixel(left + x, top + y), 3, part.pixel(column, row));
-  return part;
+  Picture enlarged;
+  enlarged.width = picture.width * zoom;
+  enlarged.height = picture.height * zoom;
+  enlarged.rgb8.resize(picture.rgb8.size() * static_cast<std::size_t>(zoom) * zoom);
+  for (int row = 0; row < enlarged.height; ++row)
+    for (int x = 0; x < picture.width; ++x)
+      for (int column = x * zoom; column < (x + 1) * zoom; ++column)
+        std::copy_n(picture.pixel(x, row / zoom), 3, enlarged.pixel(column, row));
+  return enlarged;
 }
 
 void Paste(Picture& picture, const Picture& part, int left, int top) {

@@ -22,9 +22,8 @@ void DrawCross(Picture& picture, const Eigen::Vector2d& center_px, double radius
 void DrawEdgedText(Picture& picture, std::string_view text, int x, int y, int scale,
                    const Eigen::Vector3f& linear_color);
 
-// A part of a picture, every pixel as a square of `zoom` pixels; what lies beyond the picture is
-// dark grey.
-Picture Enlarged(const Picture& picture, int left, int top, int width, int height, int zoom);
+// Every pixel as a square of `zoom` pixels.
+Picture Enlarged(const Picture& picture, int zoom);
 
 // `part`, its top left corner at (left, top); what reaches over the edge is cut off.
 void Paste(Picture& picture, const Picture& part, int left, int top);

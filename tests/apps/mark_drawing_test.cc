@@ -78,12 +78,25 @@ TEST(MarkDrawingTest, FramesBecomePicturesWithSquarePixelsAndAllRows) {
   Frame frame;
   frame.image = field.view();
   frame.picture_from_image = {{2, 2}, {0, 1}};  // twice as wide, a bottom field
-  const Picture picture = PictureOf(frame, 6, 4);
+  const Picture picture = PictureOf(frame, 0, 0, 6, 4);
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 6; ++x) {
       // Row 1 of the field is row 3 of the picture; column 1 column 2, nearest from 1 to below 3.
       const bool is_bright = y >= 2 && x >= 1 && x < 3;
       EXPECT_EQ(picture.pixel(x, y)[1], is_bright ? 255 : 0) << x << ", " << y;
+    }
+}
+
+TEST(MarkDrawingTest, BeyondAFrameIsDarkGrey) {
+  const Image black(PixelFormat::kGray8, 4, 4);
+  Frame frame;
+  frame.image = black.view();
+  const Picture picture = PictureOf(frame, 2, -1, 3, 3);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 3; ++x) {
+      const bool is_beyond = y == 0 || x == 2;
+      EXPECT_EQ(picture.pixel(x, y)[0] > 0, is_beyond) << x << ", " << y;
+      EXPECT_LT(picture.pixel(x, y)[0], 100);
     }
 }
 
