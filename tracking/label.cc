@@ -174,9 +174,9 @@ LabelPriors PriorsOf(const PointClouds& clouds, const MarkerTemplate& marker_tem
         })));
   const double most = options.seen * static_cast<double>(marker_template.markers.size());
   constexpr double kLeast = 0.02, kMost = 0.6;
-  LabelPriors priors = {options.seen, options.false_points, options.false_points, kLeast};
+  LabelPriors priors = {{options.seen, kLeast}, options.false_points, options.false_points};
   if (!by_more_views.empty())
-    priors.seen_by_one_view = std::clamp(1 - MedianOf(by_more_views) / most, kLeast, kMost);
+    priors.usual.seen_by_one_view = std::clamp(1 - MedianOf(by_more_views) / most, kLeast, kMost);
   return priors;
 }
 
@@ -201,7 +201,26 @@ int CountUnlabelledPairs(const std::vector<CloudPoint>& cloud, const std::vector
   return static_cast<int>(pairs - named);
 }
 
-// What the first pass says about how many markers are seen, and how many points are false.
+// How often a marker is seen, and by one view: what the first pass says, and a second of what is
+// usual beside it.
+MarkerPriors LearnFrom(const PointClouds& clouds, const std::vector<LabelledFrame>& frames,
+                       int marker, const MarkerPriors& usual) {
+  double expected = clouds.rate_hz, seen = usual.seen * expected,
+         by_one_view = usual.seen_by_one_view * seen;
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    if (!frames[frame].template_from_stage) continue;
+    ++expected;
+    const int point = frames[frame].points[marker];
+    if (point < 0) continue;
+    ++seen;
+    if (clouds.frames[frame][point].sights.size() == 1) ++by_one_view;
+  }
+  constexpr double kLeast = 0.01, kMost = 0.99;
+  return {std::clamp(seen / expected, kLeast, kMost),
+          std::clamp(by_one_view / seen, kLeast, kMost)};
+}
+
+// What the first pass says about how often markers are seen, and how many points are false.
 LabelPriors LearnFrom(const PointClouds& clouds, const std::vector<LabelledFrame>& frames,
                       LabelPriors priors) {
   int known = 0, expected = 0, unexplained = 0, unlabelled_pairs = 0, counted = 0;
@@ -213,11 +232,15 @@ LabelPriors LearnFrom(const PointClouds& clouds, const std::vector<LabelledFrame
     unexplained += CountUnexplained(clouds.frames[frame], frames[frame].points);
     unlabelled_pairs += CountUnlabelledPairs(clouds.frames[frame], frames[frame].points);
   }
+  constexpr double kSudden = 0.02;
+  priors.sudden = kSudden;
   if (counted == 0) return priors;
   constexpr double kLeastSeen = 0.5, kMostSeen = 0.99, kFewestFalse = 0.05;
-  priors.seen = std::clamp(1.0 * known / expected, kLeastSeen, kMostSeen);
+  priors.usual.seen = std::clamp(1.0 * known / expected, kLeastSeen, kMostSeen);
   priors.false_points = std::max(kFewestFalse, 1.0 * unexplained / counted);
   priors.false_pairs = std::max(kFewestFalse, 1.0 * unlabelled_pairs / counted);
+  for (int marker = 0; marker < static_cast<int>(frames.front().points.size()); ++marker)
+    priors.markers.push_back(LearnFrom(clouds, frames, marker, priors.usual));
   return priors;
 }
 

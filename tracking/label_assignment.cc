@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "tracking/assignment.h"
 
@@ -23,10 +24,47 @@ int FindContradiction(const LabelCosts& costs, std::span<const CloudPoint> cloud
     if (points[first] < 0) continue;
     for (int second = first + 1; second < num_markers; ++second)
       if (points[second] >= 0 && ClaimOneDot(cloud[points[first]], cloud[points[second]]))
-        return costs.costs(first, points[first]) > costs.costs(second, points[second]) ? first
-                                                                                       : second;
+        return costs(first, points[first]) > costs(second, points[second]) ? first : second;
   }
   return -1;
+}
+
+// Of showing something, and to so many views, over showing nothing.
+double PriorCost(const MarkerPriors& prior, bool by_one_view) {
+  const double views = by_one_view ? prior.seen_by_one_view : 1 - prior.seen_by_one_view;
+  return -2 * std::log(prior.seen * views / (1 - prior.seen));
+}
+
+struct Surprise {
+  double squared_sigmas = 0;
+  double cost = 0;  // twice the negative log of a normal density
+};
+Surprise SurpriseOf(const Eigen::Vector3d& apart, const Eigen::Matrix3d& covariance) {
+  const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
+  const double squared_sigmas = factor.matrixL().solve(apart).squaredNorm();
+  const double log_determinant =
+      2 * Eigen::Matrix3d(factor.matrixL()).diagonal().array().log().sum();
+  return {squared_sigmas, squared_sigmas + log_determinant + 3 * std::log(2 * std::numbers::pi)};
+}
+
+constexpr double kSuddenVariance = 16;  // of a usual movement
+
+// That a marker is so far from its place; nothing where it is too far, whatever else there is.
+std::optional<double> CostOfMove(const Eigen::Vector3d& apart, const Eigen::Matrix3d& of_point,
+                                 const Eigen::Matrix3d& of_place, double sudden) {
+  const Eigen::Matrix3d usual = of_point + of_place;
+  const Eigen::Matrix3d wide = sudden > 0 ? of_point + kSuddenVariance * of_place : usual;
+  // The trace is no less than the variance in any direction.
+  if (apart.squaredNorm() > kFarthest_sigmas * kFarthest_sigmas * wide.trace()) return std::nullopt;
+  constexpr double kOrdinary = 6;  // squared sigmas: so near, nothing sudden has happened
+  const Surprise expected = SurpriseOf(apart, usual);
+  if (!(sudden > 0) || expected.squared_sigmas < kOrdinary) return expected.cost;
+  const Surprise other = SurpriseOf(apart, wide);
+  // Of the sum of both densities, from the greater one.
+  const double first = expected.cost - 2 * std::log(1 - sudden);
+  const double second = other.cost - 2 * std::log(sudden);
+  const double least = std::min(first, second);
+  return least - 2 * std::log1p(std::exp((least - std::max(first, second)) / 2));
 }
 
 // Whether two points of different views may well be one marker, of which a view shows too little to
@@ -61,48 +99,39 @@ bool ClaimOneDot(const CloudPoint& a, const CloudPoint& b) {
 
 LabelCosts CostsOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
                    const PoseEstimate& pose, const LabelPriors& priors) {
-  const double constant = 3 * std::log(2 * std::numbers::pi) - 2 * std::log(priors.seen);
-  LabelCosts result;
-  result.null_cost = -2 * std::log(1 - priors.seen);
-  result.costs.setConstant(static_cast<int>(markers.size()), static_cast<int>(cloud.size()),
-                           kInfinity);
+  LabelCosts costs;
+  costs.setConstant(static_cast<int>(markers.size()), static_cast<int>(cloud.size()), kInfinity);
   for (int p = 0; p < static_cast<int>(cloud.size()); ++p) {
     const Eigen::Vector3d position = pose.template_from_stage * cloud[p].position_in_stage_mm;
     const std::size_t sights = cloud[p].sights.size();
-    const double views = sights == 1 ? priors.seen_by_one_view : 1 - priors.seen_by_one_view;
     const double false_per_mm3 =
         std::max(sights == 2 ? priors.false_pairs : priors.false_points, 1e-3) / std::pow(300, 3);
     const Eigen::Matrix3d of_point = CovarianceInTemplate_mm2(cloud[p], pose.template_from_stage) +
                                      pose.CovarianceAt_mm2(position);
     for (int m = 0; m < static_cast<int>(markers.size()); ++m) {
-      const Eigen::Vector3d apart = position - markers[m].position_mm;
-      const Eigen::Matrix3d covariance = of_point + markers[m].covariance_mm2;
-      // The trace is no less than the variance in any direction.
-      if (apart.squaredNorm() > kFarthest_sigmas * kFarthest_sigmas * covariance.trace()) continue;
-      const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
-      const double log_determinant =
-          2 * Eigen::Matrix3d(factor.matrixL()).diagonal().array().log().sum();
-      result.costs(m, p) = factor.matrixL().solve(apart).squaredNorm() + log_determinant +
-                           constant + 2 * std::log(false_per_mm3) - 2 * std::log(views);
+      const auto cost = CostOfMove(position - markers[m].position_mm, of_point,
+                                   markers[m].covariance_mm2, priors.sudden);
+      if (cost)
+        costs(m, p) = *cost + 2 * std::log(false_per_mm3) + PriorCost(priors.Of(m), sights == 1);
     }
   }
-  return result;
+  return costs;
 }
 
 std::vector<int> AssignPoints(const LabelCosts& costs, std::span<const CloudPoint> cloud) {
   LabelCosts allowed = costs;
   while (true) {
-    std::vector<int> points = Assign(allowed.costs, allowed.null_cost);
+    std::vector<int> points = Assign(allowed, 0);
     const int refused = FindContradiction(allowed, cloud, points);
     if (refused < 0) return points;
-    allowed.costs(refused, points[refused]) = kInfinity;
+    allowed(refused, points[refused]) = kInfinity;
   }
 }
 
 double TotalCost(const LabelCosts& costs, const std::vector<int>& points) {
   double total = 0;
   for (int m = 0; m < static_cast<int>(points.size()); ++m)
-    total += points[m] < 0 ? costs.null_cost : costs.costs(m, points[m]);
+    if (points[m] >= 0) total += costs(m, points[m]);
   return total;
 }
 
@@ -117,16 +146,16 @@ std::vector<float> MarginsOf(const LabelCosts& costs, std::span<const CloudPoint
   std::vector<float> margins(points.size(), std::numeric_limits<float>::quiet_NaN());
   for (int m = 0; m < static_cast<int>(points.size()); ++m) {
     if (points[m] < 0) continue;
-    const double own = costs.costs(m, points[m]);
-    double least = costs.null_cost - own;
-    for (int p = 0; p < costs.costs.cols(); ++p)
+    const double own = costs(m, points[m]);
+    double least = -own;
+    for (int p = 0; p < costs.cols(); ++p)
       if (!explained[p] && !MayBeOne(cloud[points[m]], cloud[p]))
-        least = std::min(least, costs.costs(m, p) - own);
+        least = std::min(least, costs(m, p) - own);
     for (int other = 0; other < static_cast<int>(points.size()); ++other) {
       if (other == m) continue;
-      const double before = points[other] < 0 ? costs.null_cost : costs.costs(other, points[other]);
-      const double after = costs.costs(other, points[m]) +
-                           (points[other] < 0 ? costs.null_cost : costs.costs(m, points[other]));
+      const double before = points[other] < 0 ? 0 : costs(other, points[other]);
+      const double after =
+          costs(other, points[m]) + (points[other] < 0 ? 0 : costs(m, points[other]));
       least = std::min(least, after - before - own);
     }
     margins[m] = static_cast<float>(least / 2);

@@ -18,16 +18,22 @@ namespace articap {
 std::vector<MarkerPlace> HomesOf(const MarkerTemplate& marker_template);
 
 // How unlikely it is, twice the negative log, that a point is what a marker shows, compared with
-// its being false; and that the marker shows nothing.
-struct LabelCosts {
-  Eigen::MatrixXd costs;  // markers x points
-  double null_cost;
+// its being false and with the marker's showing nothing: markers x points.
+using LabelCosts = Eigen::MatrixXd;
+struct MarkerPriors {
+  double seen = 0.9;              // LabelOptions
+  double seen_by_one_view = 0.1;  // part of what is seen
 };
 struct LabelPriors {
-  double seen = 0.9;              // LabelOptions
-  double false_points = 2;        // LabelOptions
-  double false_pairs = 2;         // of these, what two views see: rays meet by chance
-  double seen_by_one_view = 0.1;  // part of what is seen
+  MarkerPriors usual;
+  double false_points = 2;                 // LabelOptions
+  double false_pairs = 2;                  // of these, what two views see: rays meet by chance
+  std::vector<MarkerPriors> markers = {};  // each by itself; empty: all are as usual
+  // Part of a marker's frames in which it has moved four times as far as its place's covariance
+  // says: lips are calm, and then they are quick.
+  double sudden = 0;
+
+  const MarkerPriors& Of(int marker) const { return markers.empty() ? usual : markers[marker]; }
 };
 LabelCosts CostsOf(std::span<const MarkerPlace> markers, std::span<const CloudPoint> cloud,
                    const PoseEstimate& pose, const LabelPriors& priors);

@@ -45,7 +45,7 @@ std::vector<MarkerPlace> PlacesOf(const MarkerTemplate& layout, const Eigen::Mat
 
 LabelPriors PriorsOf(const LabelOptions& options) {
   constexpr double kSeenByOneView = 0.3;
-  return {options.seen, options.false_points, options.false_points, kSeenByOneView};
+  return {{options.seen, kSeenByOneView}, options.false_points, options.false_points};
 }
 
 // Bends the layout by the affine map that takes it nearest to what it found, as far as many markers
