@@ -59,6 +59,10 @@ Result<BoundReference> BindTake(const Take& reference, const MarkerSet& set, con
     return Bind(stabilized->output.tracks, stabilized->output.head_shape, set, rig, options.bind);
   });
   if (!bound) return Fail(fmt::format("{}: {}", reference.path.string(), bound.error().message));
+  // Other takes of the speaker are to be stabilised in the same way.
+  auto chosen = ChosenSet(set, options.stabilize);
+  if (!chosen) return tl::unexpected(chosen.error());
+  bound->output.marker_set = *std::move(chosen);
   return BoundReference{
       std::move(bound->output),
       std::move(stabilized->output),

@@ -56,6 +56,9 @@ struct StabilizeOptions {
 };
 void VisitOptions(StabilizeOptions& options, OptionVisitor& visit);
 
+// The marker map with what the options say instead of it: how, by which references, and the axes.
+Result<MarkerSet> ChosenSet(const MarkerSet& set, const StabilizeOptions& options);
+
 struct Stabilized {
   HeadPoseTrack head_pose;
   HeadTracks tracks;

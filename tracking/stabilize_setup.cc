@@ -113,6 +113,24 @@ Result<void> CheckCount(const StageTracks& tracks, const StabilizeSetup& setup) 
 
 }  // namespace
 
+Result<MarkerSet> ChosenSet(const MarkerSet& set, const StabilizeOptions& options) {
+  const auto axes = ResolveAxes(set, options);
+  if (!axes) return tl::unexpected(axes.error());
+  MarkerSet chosen = set;
+  chosen.axes = *axes;
+  chosen.mode = ResolveMode(set, options.mode);
+  if (options.head.empty()) return chosen;
+  for (MarkerRole& marker : chosen.markers) marker.head_reference = false;
+  for (const std::string& name : options.head) {
+    const auto known = std::ranges::find(chosen.markers, name, &MarkerRole::name);
+    if (known != chosen.markers.end())
+      known->head_reference = true;
+    else
+      chosen.markers.push_back({.name = name, .head_reference = true});
+  }
+  return chosen;
+}
+
 Result<StabilizeSetup> ResolveSetup(const StageTracks& tracks, const MarkerSet& set,
                                     const std::optional<HeadShape>& given_shape,
                                     const StabilizeOptions& options) {
