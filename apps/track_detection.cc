@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/progress.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {
@@ -41,9 +42,7 @@ double MedianDiameter_px(const DotVideo& video) {
   std::vector<double> diameters_px;
   for (const DotPicture& picture : video.pictures)
     for (const Dot& dot : picture.dots) diameters_px.push_back(dot.diameter_px());
-  std::sort(diameters_px.begin(), diameters_px.end());
-  return diameters_px.empty() ? std::numeric_limits<double>::quiet_NaN()
-                              : diameters_px[diameters_px.size() / 2];
+  return MedianOf(std::move(diameters_px));
 }
 
 // The file promises more frames than came. Durations are rounded, hence a margin.

@@ -11,6 +11,7 @@
 #include "apps/mark_drawing.h"
 #include "apps/progress.h"
 #include "capture/video_writer.h"
+#include "core/statistics.h"
 #include "render/draw.h"
 #include "render/label.h"
 
@@ -31,10 +32,7 @@ double UsualDiameter_px(const FrameMarks& marks, int camera) {
   std::vector<double> diameters_px;
   for (const MarkerMark& mark : marks.markers)
     if (mark.dot_px && mark.view.camera == camera) diameters_px.push_back(mark.diameter_px);
-  if (diameters_px.empty()) return kOtherwise_px;
-  const auto middle = diameters_px.begin() + static_cast<std::ptrdiff_t>(diameters_px.size() / 2);
-  std::nth_element(diameters_px.begin(), middle, diameters_px.end());
-  return *middle;
+  return diameters_px.empty() ? kOtherwise_px : MedianOf(std::move(diameters_px));
 }
 
 // About twelve dots wide.

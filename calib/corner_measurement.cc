@@ -9,8 +9,8 @@
 #include <opencv2/core/eigen.hpp>
 #include <utility>
 
-#include "calib/robust.h"
 #include "core/check.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {
@@ -33,7 +33,7 @@ template <class Get>
 double MedianOver(const std::vector<CornerFit>& fits, const Get& get) {
   std::vector<double> values;
   for (const CornerFit& fit : fits) values.push_back(get(fit));
-  return values.empty() ? 0 : UpperMedianOf(std::move(values));
+  return values.empty() ? 0 : MedianOf(std::move(values));
 }
 
 // How far markers are from the corners of the squares that they are printed in, squares.

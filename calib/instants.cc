@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "core/statistics.h"
+
 namespace articap {
 
 double UsualInterval_s(std::vector<SessionTime> times) {
@@ -19,9 +21,7 @@ double UsualInterval_s(std::vector<SessionTime> times) {
   }
   if (intervals_s.empty()) return 1;
   // Where every other picture is lost, the median is two intervals; the quartile is one still.
-  const auto quartile = intervals_s.begin() + static_cast<std::ptrdiff_t>(intervals_s.size() / 4);
-  std::nth_element(intervals_s.begin(), quartile, intervals_s.end());
-  const double about_s = *quartile;
+  const double about_s = QuantileOf(intervals_s, 0.25);
   std::erase_if(intervals_s, [&](double interval_s) {
     return interval_s < 0.5 * about_s || interval_s > 1.5 * about_s;
   });

@@ -18,10 +18,10 @@
 #include <string_view>
 #include <utility>
 
-#include "calib/robust.h"
 #include "core/csv_rows.h"
 #include "core/csv_values.h"
 #include "core/file_io.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {
@@ -118,7 +118,7 @@ std::optional<FoundNormal> FindNormal(const std::vector<RayPair>& rays, double f
     std::vector<double> sizes;
     for (const RayPair& pair : rays)
       sizes.push_back(std::abs(SampsonDistance_px(pair, found.normal, focal_px)));
-    found.sigma_px = std::max(1e-9, 1.4826 * UpperMedianOf(std::move(sizes)));
+    found.sigma_px = std::max(1e-9, 1.4826 * MedianOf(std::move(sizes)));
     Eigen::Matrix2d normal_matrix = Eigen::Matrix2d::Zero();
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
     for (const RayPair& pair : rays) {

@@ -12,6 +12,7 @@
 #include "calib/camera_tree.h"
 #include "calib/planar_pose.h"
 #include "calib/robust.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {
@@ -56,7 +57,7 @@ PairPose JudgePair(const BoardSpec& board, const Camera& second,
     rms_px.push_back(RmsOfPair_px(board, second, view, second_from_first));
     if (rms_px.back() < RoughTolerance_px(second)) ++pose.good_views;
   }
-  pose.median_px = UpperMedianOf(std::move(rms_px));
+  pose.median_px = MedianOf(std::move(rms_px));
   return pose;
 }
 

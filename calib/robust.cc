@@ -6,20 +6,13 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/check.h"
+#include "core/statistics.h"
 
 namespace articap {
 
-double UpperMedianOf(std::vector<double> values) {
-  ARTICAP_CHECK(!values.empty());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double RobustSigmaOf(std::vector<double> distances_px) {
   // The median of Rayleigh's distribution over its sigma.
-  return UpperMedianOf(std::move(distances_px)) / std::sqrt(2 * std::log(2.0));
+  return MedianOf(std::move(distances_px)) / std::sqrt(2 * std::log(2.0));
 }
 
 double RoughTolerance_px(const Camera& camera) {

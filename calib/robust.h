@@ -7,9 +7,6 @@
 
 namespace articap {
 
-// The median (of an even number the upper one); there must be values.
-double UpperMedianOf(std::vector<double> values);
-
 // Standard deviation of one coordinate of two-dimensional Gaussian errors, from the median of their
 // distances: outliers do not touch it.
 double RobustSigmaOf(std::vector<double> distances_px);

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "calib/corner_measurement.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {
@@ -113,9 +114,7 @@ void MeasureMotion(std::vector<Candidate>& candidates) {
 double SharpestEdge(const std::vector<Candidate>& candidates) {
   std::vector<double> edges;
   for (const Candidate& candidate : candidates) edges.push_back(candidate.edge_px);
-  const auto tenth = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 10);
-  std::nth_element(edges.begin(), tenth, edges.end());
-  return *tenth;
+  return QuantileOf(std::move(edges), 0.1);
 }
 
 void SetAsideBad(std::vector<Candidate>& candidates, double sharpest_px,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "calib/robust.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {
@@ -26,10 +27,10 @@ struct Usual {
 };
 
 Usual UsualOf(const std::vector<double>& rms_px, const ResidualLists& residuals_px) {
-  const double median = UpperMedianOf(rms_px);
+  const double median = MedianOf(rms_px);
   std::vector<double> deviations;
   for (double rms : rms_px) deviations.push_back(std::abs(rms - median));
-  const double spread = 1.4826 * UpperMedianOf(std::move(deviations));
+  const double spread = 1.4826 * MedianOf(std::move(deviations));
   return {median, std::max({kGood_px, 3 * median, median + 6 * spread}),
           RobustSigmaOf(residuals_px)};
 }
@@ -48,9 +49,7 @@ std::vector<double> DistancesOf(const ResidualLists& residuals_px) {
 
 }  // namespace
 
-double MedianOf(const ResidualLists& residuals_px) {
-  return UpperMedianOf(DistancesOf(residuals_px));
-}
+double MedianOf(const ResidualLists& residuals_px) { return MedianOf(DistancesOf(residuals_px)); }
 
 double RobustSigmaOf(const ResidualLists& residuals_px) {
   return RobustSigmaOf(DistancesOf(residuals_px));

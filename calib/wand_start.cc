@@ -13,7 +13,7 @@
 #include "calib/camera_tree.h"
 #include "calib/epipolar.h"
 #include "calib/instants.h"
-#include "calib/robust.h"
+#include "core/statistics.h"
 #include "core/triangulation.h"
 
 namespace articap {
@@ -189,7 +189,7 @@ class WandStart {
                          (ends[0]->point_in_stage_mm - ends[1]->point_in_stage_mm).norm());
     }
     if (scales.empty()) return std::nullopt;
-    return UpperMedianOf(std::move(scales));
+    return MedianOf(std::move(scales));
   }
 
   Result<void> PlaceCameras() {

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/alignment.h"
+#include "core/statistics.h"
 #include "fitting/identity_fit.h"
 #include "fitting/orientation_fit.h"
 #include "fitting/reference_pose.h"
@@ -206,16 +207,15 @@ void WarnOfOpenLips(const HeadTracks& tracks, const MarkerSet& set, const FrameR
     }
   std::erase_if(distances, [](double distance) { return !std::isfinite(distance); });
   if (count == 0 || distances.empty()) return;
-  const auto closed = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 20);
-  std::nth_element(distances.begin(), closed, distances.end());
+  const double closed = QuantileOf(std::move(distances), 0.05);
   report->figures.emplace_back("lip_distance_mm", sum / count);
-  report->figures.emplace_back("lip_distance_closed_mm", *closed);
-  if (sum / count > *closed + kOpenLips_mm)
+  report->figures.emplace_back("lip_distance_closed_mm", closed);
+  if (sum / count > closed + kOpenLips_mm)
     report->warnings.push_back(
         fmt::format("the lips are open in the reference pose: {:.1f} mm between the lip markers, "
                     "{:.1f} mm where the take closes them; choose frames with closed lips and "
                     "relaxed jaw (--frames; --reference in fit)",
-                    sum / count, *closed));
+                    sum / count, closed));
 }
 
 void DescribeOrientation(const std::vector<PointPair>& pairs, const OrientationFit& fit,

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/statistics.h"
+
 namespace articap {
 namespace {
 
@@ -45,9 +47,8 @@ std::vector<DisplacedMarker> FindDisplacedMarkers(const ShapeFit& fit) {
     lengths_mm.push_back(residuals.back().length_mm);
   }
   if (lengths_mm.empty()) return {};
-  const auto middle = lengths_mm.begin() + static_cast<std::ptrdiff_t>(lengths_mm.size() / 2);
-  std::nth_element(lengths_mm.begin(), middle, lengths_mm.end());
-  const double least_mm = std::max(kLeastDistanceMm, kTimesMedian * *middle);
+  const double least_mm =
+      std::max(kLeastDistanceMm, kTimesMedian * MedianOf(std::move(lengths_mm)));
   std::vector<DisplacedMarker> displaced;
   for (int marker = 0; marker < fit.measured.num_markers(); ++marker) {
     const MeanResidual& residual = residuals[static_cast<std::size_t>(marker)];

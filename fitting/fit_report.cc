@@ -11,6 +11,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/statistics.h"
 #include "fitting/displaced_markers.h"
 
 namespace articap {
@@ -29,13 +30,6 @@ constexpr double kLittleExplained = 75;
 
 // Residuals this many times larger than the assumed noise deserve a word.
 constexpr double kNoisierThanAssumed = 3;
-
-double Percentile(std::vector<double> values, double part) {
-  if (values.empty()) return kNaN;
-  const auto at = values.begin() + std::lround(part * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 double Mean(const std::vector<double>& values) {
   if (values.empty()) return kNaN;
@@ -74,7 +68,7 @@ ReportTable ParameterTable(const ShapeFit& fit, const FaceRig& rig,
     for (double& deviation : deviations) deviation -= mean;
     const double part_at_bound = at_bound / static_cast<double>(values.size());
     table.rows.push_back({parameter.name,
-                          {*least, *most, mean, RootMeanSquare(deviations), Percentile(sigmas, 0.5),
+                          {*least, *most, mean, RootMeanSquare(deviations), QuantileOf(sigmas, 0.5),
                            100 * part_at_bound, determined[k] ? 0.0 : 1.0}});
     if (determined[k] && part_at_bound > kOftenAtBound)
       report->warnings.push_back(fmt::format(
@@ -95,8 +89,8 @@ ReportTable ResidualTable(const ShapeFit& fit, const ExplainedVariance& explaine
         residuals.push_back(residual);
     table.rows.push_back(
         {fit.measured.names()[marker],
-         {RootMeanSquare(residuals), Mean(residuals), Percentile(residuals, 0.95),
-          Percentile(residuals, 1),
+         {RootMeanSquare(residuals), Mean(residuals), QuantileOf(residuals, 0.95),
+          QuantileOf(residuals, 1),
           100.0 * static_cast<double>(residuals.size()) / std::max(1, fit.measured.num_frames()),
           100 * explained.per_marker[marker]}});
   }
@@ -108,7 +102,7 @@ ReportTable ResidualTable(const ShapeFit& fit, const ExplainedVariance& explaine
 std::optional<double> MarkerSigma_mm(const Eigen::MatrixXf& residuals_mm,
                                      const Eigen::MatrixXd& unit_sigmas) {
   constexpr double kLeastFreedom = 0.05;  // of all numbers
-  std::vector<float> lengths;
+  std::vector<double> lengths;
   double numbers = 0, freedom = 0;
   for (Eigen::Index frame = 0; frame < residuals_mm.rows(); ++frame) {
     int seen = 0;
@@ -122,9 +116,7 @@ std::optional<double> MarkerSigma_mm(const Eigen::MatrixXf& residuals_mm,
     freedom += std::max(0.0, static_cast<double>(3 * seen - free));
   }
   if (lengths.empty() || freedom < kLeastFreedom * numbers) return std::nullopt;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle / kMedianLength * std::sqrt(numbers / freedom);
+  return MedianOf(std::move(lengths)) / kMedianLength * std::sqrt(numbers / freedom);
 }
 
 // The rest of a sentence; empty where the parameters may be used.
@@ -191,7 +183,7 @@ void DescribeFit(const ShapeFit& fit, const FaceRig& rig, const std::vector<bool
   for (const double residual : fit.parameters.residuals_mm)
     if (std::isfinite(residual)) residuals.push_back(residual);
   report->figures.emplace_back("mean_residual_mm", Mean(residuals));
-  report->figures.emplace_back("worst_frame_residual_mm", Percentile(residuals, 1));
+  report->figures.emplace_back("worst_frame_residual_mm", QuantileOf(residuals, 1));
   report->figures.emplace_back("explained_variance_mouth_chin_%", 100 * explained.mouth_and_chin);
   report->figures.emplace_back("explained_variance_all_%", 100 * explained.all);
   report->figures.emplace_back("explained_variance_frames", explained.num_frames);

@@ -17,6 +17,7 @@
 
 #include "core/alignment.h"
 #include "core/check.h"
+#include "core/statistics.h"
 #include "fitting/face_surface.h"
 
 namespace articap {
@@ -216,9 +217,7 @@ Result<IcpAlignment> AlignCloudToRig(std::span<const Eigen::Vector3d> cloud_mm, 
   for (const Eigen::Vector3d& point : cloud_mm)
     alignment.distances_mm.push_back(
         surface->Nearest(alignment.rig_from_cloud * point).distance_mm);
-  std::vector<double> sorted = alignment.distances_mm;
-  std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
-  alignment.median_distance_mm = sorted[sorted.size() / 2];
+  alignment.median_distance_mm = MedianOf(alignment.distances_mm);
   return alignment;
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/statistics.h"
+
 namespace articap {
 namespace {
 
@@ -74,10 +76,7 @@ std::vector<double> DistancesFromUsual(const HeadTracks& tracks, const MarkerSet
       for (int frame = 0; frame < tracks.num_frames(); ++frame)
         if (usual[frame] && !tracks.is_missing(frame, marker))
           values.push_back(tracks.position_mm(frame, marker)[axis]);
-      if (values.empty()) values.push_back(kNaN);
-      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-      std::nth_element(values.begin(), middle, values.end());
-      median[axis] = *middle;
+      median[axis] = MedianOf(std::move(values));
     }
     if (!median.allFinite()) continue;
     for (int frame = 0; frame < tracks.num_frames(); ++frame)
@@ -131,12 +130,6 @@ bool HasAny(const std::vector<double>& values) {
                      [](double value) { return std::isfinite(value); });
 }
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 struct RobustMean {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double sd_mm = 0;
@@ -150,11 +143,11 @@ RobustMean RobustMeanOf(const std::vector<Eigen::Vector3d>& positions) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> coordinates;
     for (const Eigen::Vector3d& position : positions) coordinates.push_back(position[axis]);
-    median[axis] = Median(std::move(coordinates));
+    median[axis] = MedianOf(std::move(coordinates));
   }
   std::vector<double> distances;
   for (const Eigen::Vector3d& position : positions) distances.push_back((position - median).norm());
-  const double most = 3 * Median(distances);
+  const double most = 3 * MedianOf(distances);
   RobustMean mean;
   double sum_of_squares = 0;
   int count = 0;

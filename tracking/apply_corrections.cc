@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/statistics.h"
 #include "tracking/label_assignment.h"
-#include "tracking/rigidity.h"
 
 namespace articap {
 namespace {

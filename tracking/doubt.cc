@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "tracking/rigidity.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {

@@ -6,15 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "core/statistics.h"
 #include "tracking/head_motion.h"
 #include "tracking/label_assignment.h"
 #include "tracking/label_smoothing.h"
 #include "tracking/label_votes.h"
 #include "tracking/pose_search.h"
-#include "tracking/rigidity.h"
 
 namespace articap {
 namespace {
@@ -129,10 +131,13 @@ class LabelPass {
     return result;
   }
 
-  // The head has not been lost: three markers, and not many fewer than there are points for.
+  // The head has not been lost: three markers, and not many fewer than there are points for, and it
+  // is not turned as no head is.
   bool IsEnough(const LabelledFrame& labelled) const {
-    constexpr double kLeastShare = 0.3;
-    return labelled.template_from_stage &&
+    constexpr double kLeastShare = 0.3, kMostSigmas = 4;
+    if (!labelled.template_from_stage) return false;
+    const double turn_rad = Eigen::AngleAxisd(labelled.template_from_stage->rotation).angle();
+    return turn_rad < kMostSigmas * options_.attitude_sigma_deg * std::numbers::pi / 180 &&
            labelled.num_labelled() >=
                std::max(3.0, kLeastShare * static_cast<double>(home_.size()));
   }
@@ -244,6 +249,52 @@ LabelPriors LearnFrom(const PointClouds& clouds, const std::vector<LabelledFrame
   return priors;
 }
 
+// Whether two views or more saw three markers: then a frame shows how the head is turned.
+bool ShowsAttitude(const std::vector<CloudPoint>& cloud, const LabelledFrame& frame) {
+  constexpr int kEnough = 3;
+  const auto seen = std::count_if(frame.points.begin(), frame.points.end(), [&](int point) {
+    return point >= 0 && cloud[point].sights.size() != 1;
+  });
+  return frame.template_from_stage && seen >= kEnough;
+}
+
+// How far the head turns, from the frames that show it; nothing where nearly all do, or too few.
+std::optional<double> LearnAttitudeSigma_deg(const PointClouds& clouds,
+                                             const std::vector<LabelledFrame>& frames) {
+  constexpr double kNearlyAll = 0.9, kFewest_s = 1, kLeast_deg = 8, kTimes = 2;
+  constexpr double kMedianOfChi3 = 1.538;
+  std::vector<double> turns_rad;
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    if (!ShowsAttitude(clouds.frames[frame], frames[frame])) continue;
+    turns_rad.push_back(Eigen::AngleAxisd(frames[frame].template_from_stage->rotation).angle());
+  }
+  const auto count = static_cast<double>(turns_rad.size());
+  if (count < kFewest_s * clouds.rate_hz || count > kNearlyAll * static_cast<double>(frames.size()))
+    return std::nullopt;
+  const double sigma_rad = MedianOf(std::move(turns_rad)) / kMedianOfChi3;
+  return std::max(kLeast_deg, kTimes * sigma_rad * 180 / std::numbers::pi);
+}
+
+Labelling FirstPass(const PointClouds& clouds, const MarkerTemplate& marker_template,
+                    const LabelPriors& priors, const LabelOptions& options) {
+  Labelling labelling;
+  LabelPass forwards(clouds, marker_template, priors, options);
+  int first = -1;  // frame in which the head is found
+  for (int frame = 0; frame < clouds.num_frames(); ++frame) {
+    labelling.frames.push_back(forwards.Label(frame));
+    if (first < 0 && labelling.frames.back().template_from_stage) first = frame;
+  }
+  labelling.searches = forwards.searches();
+  // What came before may show too little of the head to find it, yet enough to follow it.
+  if (first > 0) {
+    LabelPass backwards(clouds, marker_template, priors, options);
+    backwards.StartFrom(first, labelling.frames[first]);
+    for (int frame = first - 1; frame >= 0; --frame)
+      labelling.frames[frame] = backwards.Label(frame);
+  }
+  return labelling;
+}
+
 }  // namespace
 
 int LabelledFrame::num_labelled() const {
@@ -285,21 +336,14 @@ Result<void> CheckOptions(const LabelOptions& options) {
 
 Labelling LabelClouds(const PointClouds& clouds, const MarkerTemplate& marker_template,
                       const LabelOptions& options) {
-  Labelling labelling;
   const LabelPriors priors = PriorsOf(clouds, marker_template, options);
-  LabelPass forwards(clouds, marker_template, priors, options);
-  int first = -1;  // frame in which the head is found
-  for (int frame = 0; frame < clouds.num_frames(); ++frame) {
-    labelling.frames.push_back(forwards.Label(frame));
-    if (first < 0 && labelling.frames.back().template_from_stage) first = frame;
-  }
-  labelling.searches = forwards.searches();
-  // What came before may show too little of the head to find it, yet enough to follow it.
-  if (first > 0) {
-    LabelPass backwards(clouds, marker_template, priors, options);
-    backwards.StartFrom(first, labelling.frames[first]);
-    for (int frame = first - 1; frame >= 0; --frame)
-      labelling.frames[frame] = backwards.Label(frame);
+  Labelling labelling = FirstPass(clouds, marker_template, priors, options);
+  // Where a mirror hides what would tell it, the head must not turn farther than it does elsewhere.
+  if (const auto sigma_deg = LearnAttitudeSigma_deg(clouds, labelling.frames);
+      sigma_deg && *sigma_deg < options.attitude_sigma_deg) {
+    LabelOptions calmer = options;
+    calmer.attitude_sigma_deg = *sigma_deg;
+    labelling = FirstPass(clouds, marker_template, priors, calmer);
   }
   const LabelPriors learnt = LearnFrom(clouds, labelling.frames, priors);
   labelling.relabelled =

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
+
 namespace articap {
 namespace {
 
@@ -67,10 +69,8 @@ class BothSides {
       if (ratios.size() < kFewest) continue;
       // Of a chi-squared variable of three degrees of freedom, each: faces rest, and move at once.
       constexpr double kPart = 0.95, kQuantile = 7.815 / 3;
-      const auto at = ratios.begin() +
-                      static_cast<std::ptrdiff_t>(kPart * static_cast<double>(ratios.size() - 1));
-      std::nth_element(ratios.begin(), at, ratios.end());
-      restlessness_[m] = std::clamp(*at / kQuantile, kCalmest, 1.0);
+      restlessness_[m] =
+          std::clamp(QuantileOf(std::move(ratios), kPart) / kQuantile, kCalmest, 1.0);
     }
   }
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/check.h"
-#include "tracking/rigidity.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {

@@ -14,8 +14,8 @@
 #include "core/alignment.h"
 #include "core/landmarks.h"
 #include "core/parallel.h"
+#include "core/statistics.h"
 #include "tracking/pose_search.h"
-#include "tracking/rigidity.h"
 
 namespace articap {
 namespace {
@@ -201,10 +201,7 @@ Result<void> RefuseDoubtful(const std::optional<ReferenceFit>& fit, const Marker
 double SpreadOf_mm(std::vector<double> values, double middle) {
   for (double& value : values) value = std::abs(value - middle);
   constexpr double kPart = 0.9, kNormal = 1.6449;
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(kPart * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at / kNormal;
+  return QuantileOf(std::move(values), kPart) / kNormal;
 }
 
 // In the template, where so many views or more saw the marker; points of a file count as seen by

@@ -14,7 +14,7 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
-#include "tracking/rigidity.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/alignment.h"
+#include "core/statistics.h"
 #include "tracking/reference_shape.h"
 #include "tracking/rigidity.h"
 

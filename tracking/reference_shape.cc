@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/statistics.h"
+
 namespace articap {
 namespace {
 

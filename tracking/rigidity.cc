@@ -7,19 +7,12 @@
 #include <limits>
 
 #include "core/check.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-// Reorders `values`.
-double Quantile(std::vector<double>& values, double fraction) {
-  const auto rank =
-      static_cast<std::ptrdiff_t>(std::lround(fraction * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
 
 // Marker after marker, frame after frame; NaN where not usable.
 std::vector<Eigen::Vector3d> CopyPositions(const StageTracks& tracks, std::span<const int> columns,
@@ -70,10 +63,10 @@ DistanceStatistics MeasureDistances(const StageTracks& tracks, std::span<const i
       const int count = static_cast<int>(distances_mm.size());
       statistics.num_frames(i, j) = statistics.num_frames(j, i) = count;
       if (count == 0) continue;
-      const double median_mm = Quantile(distances_mm, 0.5);
+      const double median_mm = MedianOf(distances_mm);
       statistics.median_mm(i, j) = statistics.median_mm(j, i) = median_mm;
       if (count < kMinFramesForVariance) continue;
-      const double range_mm = Quantile(distances_mm, 0.9) - Quantile(distances_mm, 0.1);
+      const double range_mm = QuantileOf(distances_mm, 0.9) - QuantileOf(distances_mm, 0.1);
       const double sigma_mm = range_mm / kSigmasFrom10To90Percent;
       statistics.variance_mm2(i, j) = statistics.variance_mm2(j, i) = sigma_mm * sigma_mm;
     }
@@ -117,10 +110,6 @@ std::vector<double> WeightingSigmas(std::vector<double> sigmas_mm) {
   const double median_mm = MedianOf(sigmas_mm);
   for (double& sigma_mm : sigmas_mm) sigma_mm = std::max(sigma_mm, median_mm);
   return sigmas_mm;
-}
-
-double MedianOf(std::vector<double> values) {
-  return values.empty() ? kNaN : Quantile(values, 0.5);
 }
 
 }  // namespace articap

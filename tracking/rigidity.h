@@ -46,6 +46,4 @@ std::vector<double> SigmasOfMembers(const Eigen::MatrixXd& variance_mm2,
 // for more, since markers that sit close together look rigid to one another wherever they go.
 std::vector<double> WeightingSigmas(std::vector<double> sigmas_mm);
 
-double MedianOf(std::vector<double> values);  // NaN of nothing
-
 }  // namespace articap

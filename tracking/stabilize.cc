@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/statistics.h"
 #include "tracking/anatomy.h"
 #include "tracking/head_axes.h"
 #include "tracking/rigidity.h"

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/alignment.h"
+#include "core/statistics.h"
 #include "tracking/rigidity.h"
 
 namespace articap {

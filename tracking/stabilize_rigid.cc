@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/alignment.h"
+#include "core/statistics.h"
 #include "tracking/anatomy.h"
 #include "tracking/exchange_check.h"
 #include "tracking/frame_aligner.h"

@@ -9,6 +9,7 @@
 
 #include "core/io/units.h"
 #include "core/marker_io.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {
@@ -143,10 +144,7 @@ double MedianExtentMm(const StageTracks& tracks) {
       }
     if (seen >= 2) diagonals_mm.push_back(box.diagonal().norm());
   }
-  if (diagonals_mm.empty()) return 0;
-  const auto middle = diagonals_mm.begin() + static_cast<std::ptrdiff_t>(diagonals_mm.size() / 2);
-  std::nth_element(diagonals_mm.begin(), middle, diagonals_mm.end());
-  return *middle;
+  return diagonals_mm.empty() ? 0 : MedianOf(std::move(diagonals_mm));
 }
 
 StageReport DescribeRecording(const MarkerRecording& recording, const std::string& source_name) {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/io/text.h"
+#include "core/statistics.h"
 
 namespace articap {
 namespace {
@@ -40,18 +41,12 @@ bool IsIncreasing(const std::vector<double>& values) {
          (FirstThatDoesNotIncrease(values) == values.size() && std::isfinite(values.back()));
 }
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Frames since the first row, by the rows' distances in time: each a whole number of median steps.
 std::vector<double> StepsOfTimes(const std::vector<double>& times_s) {
   std::vector<double> differences;
   for (std::size_t i = 1; i < times_s.size(); ++i)
     differences.push_back(times_s[i] - times_s[i - 1]);
-  const double step_s = Median(differences);
+  const double step_s = MedianOf(differences);
   std::vector<double> steps(times_s.size(), 0.0);
   for (std::size_t i = 1; i < times_s.size(); ++i)
     steps[i] = steps[i - 1] + std::max(1.0, std::round(differences[i - 1] / step_s));

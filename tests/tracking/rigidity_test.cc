@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "core/statistics.h"
+
 namespace articap {
 namespace {
 
