@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <future>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -66,8 +67,7 @@ void Add(const Frame& frame, FrameFindings found, DetectedVideo& result) {
   if (frame.status == FrameStatus::kCorrupt) ++result.damaged;
 }
 
-// Detectors that share a video's frames, and take turns with its decoder: that has threads of its
-// own, which would be in their way.
+// Detectors that share a video's frames.
 class ParallelDetector {
  public:
   ParallelDetector(const Lens& lens, const DetectionOptions& options)
@@ -165,22 +165,29 @@ Result<DetectedVideo> DetectVideo(NamedSource& named, const Lens& lens,
   ParallelDetector detector(lens, options);
   PictureKeeper keeper(room_bytes);
   const std::size_t batch = detector.batch_size();
-  std::vector<StoredFrame> frames;
-  bool more = true;
-  while (more) {
-    const Result<void> read = ReadBatch(*named.source, batch, frames);
-    more = read && frames.size() == batch;
-    detector.Detect(frames, result);
-    keeper.Offer(frames);
-    // What came before a fault stays good: half a recording is better than none.
-    if (!read && result.video.pictures.empty()) return tl::unexpected(read.error());
-    if (!read) {
-      result.notes.push_back(fmt::format("{}; tracked up to there", read.error().message));
-      result.frames_promised = -1;
-    }
+  std::vector<StoredFrame> coming, looked_at;
+  std::future<void> detection;
+  const auto finish = [&] {
+    if (detection.valid()) detection.get();
+    keeper.Offer(looked_at);
+  };
+  Result<void> read;
+  for (std::size_t frames = 0; read; frames += batch) {
+    // While the dots of the last ones are found, the next are decoded.
+    read = ReadBatch(*named.source, batch, coming);
+    finish();
+    coming.swap(looked_at);
+    detection = std::async(std::launch::async, [&] { detector.Detect(looked_at, result); });
+    if (looked_at.size() < batch) break;
     if (result.frames_promised > 0)
-      progress.SetPart(static_cast<double>(result.video.pictures.size()) /
-                       static_cast<double>(result.frames_promised));
+      progress.SetPart(static_cast<double>(frames) / static_cast<double>(result.frames_promised));
+  }
+  finish();
+  // What came before a fault stays good: half a recording is better than none.
+  if (!read && result.video.pictures.empty()) return tl::unexpected(read.error());
+  if (!read) {
+    result.notes.push_back(fmt::format("{}; tracked up to there", read.error().message));
+    result.frames_promised = -1;
   }
   result.pictures = keeper.Finish(named.source->info());
   return result;

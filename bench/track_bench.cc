@@ -2,7 +2,7 @@
 // Tracking as a whole: four cameras from memory, and a compressed 1080p video against decoding it
 // alone.
 #include <benchmark/benchmark.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +12,8 @@
 
 #include "capture/open_frames.h"
 #include "capture/video_writer.h"
+#include "core/calibration_toml.h"
+#include "core/file_io.h"
 #include "core/marker_set.h"
 #include "core/parallel.h"
 #include "rig/default_head/default_head.h"
@@ -152,7 +154,7 @@ class CamcorderVideo {
     options.width = 1920;
     options.height = 1080;
     const SyntheticCameras cameras = MirrorSetUp(0, 1, CameraModelOf(options));
-    array_ = cameras.array;
+    if (!WriteFile(calibration(), WriteCalibration(cameras.array))) std::abort();
     const Film film = FilmOf(cameras, "mirror6", 25, options);
     VideoFormat format;
     format.codec = VideoCodec::kH264;
@@ -160,7 +162,7 @@ class CamcorderVideo {
     format.width = options.width;
     format.height = options.height;
     format.rate = ClosestRate(25);
-    auto writer = VideoWriter::Create(path_, format).value();
+    auto writer = VideoWriter::Create(path(), format).value();
     std::vector<Image> pictures(kFrames);
     ParallelFor(kFrames, 0, [&](int frame) { pictures[frame] = film.Picture(frame, 0); });
     for (int i = 0; i < kTimes * kFrames; ++i) {
@@ -169,16 +171,19 @@ class CamcorderVideo {
     }
     if (!writer->Finish()) std::abort();
   }
-  ~CamcorderVideo() { std::filesystem::remove(path_); }
+  ~CamcorderVideo() { std::filesystem::remove_all(folder_); }
   CamcorderVideo(const CamcorderVideo&) = delete;
   CamcorderVideo& operator=(const CamcorderVideo&) = delete;
 
-  const CameraArray& array() const { return array_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  std::filesystem::path path() const { return folder_ / "front.mp4"; }
+  std::filesystem::path calibration() const { return folder_ / "calibration.toml"; }
+  static int num_frames() { return kTimes * kFrames; }
 
   // Every frame goes through `use`.
   template <class Use>
   int Decode(const Use& use) const {
-    const auto source = OpenFrames({path_}).value();
+    const auto source = OpenFrames({path()}).value();
     int frames = 0;
     while (const auto frame = source->Next().value()) {
       use(*frame);
@@ -190,9 +195,7 @@ class CamcorderVideo {
  private:
   static constexpr int kFrames = 20, kTimes = 10;
 
-  std::filesystem::path path_ = std::filesystem::temp_directory_path() /
-                                ("articap_track_bench_" + std::to_string(getpid()) + ".mp4");
-  CameraArray array_;
+  const std::filesystem::path folder_ = MakeTemporaryFolder("articap_track_bench");
 };
 
 const CamcorderVideo& Video() {
@@ -209,24 +212,24 @@ void BM_DecodeAlone(benchmark::State& state) {
 }
 BENCHMARK(BM_DecodeAlone)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(3);
 
-void BM_TrackVideo(benchmark::State& state) {
-  int frames = 0;
-  for (auto _ : state) {
-    DotDetector detector({});
-    PointClouds clouds;
-    clouds.rate_hz = 25;
-    std::vector<InstantDots> dots;
-    frames = Video().Decode([&](const Frame& frame) {
-      dots.push_back({detector.Detect(frame.image, frame.picture_from_image)});
-    });
-    clouds.frames = Reconstruct(Video().array(), dots, {});
-    const MarkerTemplate marker_template =
-        TemplateFor(clouds.frames, Video().array(), "mirror6", 25);
-    benchmark::DoNotOptimize(LabelClouds(clouds, marker_template, {}));
-  }
-  SetRate(frames, state);
+// The command as a whole, with its reports and pictures of `doubtful` places.
+void BM_TrackCommand(benchmark::State& state) {
+  const CamcorderVideo& video = Video();
+  const std::string command =
+      fmt::format("{} track {} --cameras {} --map mirror6 --doubtful {} -o {} > /dev/null",
+                  ARTICAP_PROGRAM, video.path().string(), video.calibration().string(),
+                  state.range(0), (video.folder() / "out.c3d").string());
+  for (auto _ : state)
+    if (std::system(command.c_str()) != 0) state.SkipWithError("articap track fails");
+  SetRate(video.num_frames(), state);
 }
-BENCHMARK(BM_TrackVideo)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(3);
+BENCHMARK(BM_TrackCommand)
+    ->Arg(24)
+    ->Arg(0)
+    ->ArgName("doubtful")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MinTime(3);
 
 }  // namespace
 }  // namespace articap
