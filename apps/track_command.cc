@@ -19,6 +19,7 @@
 #include "apps/verbs.h"
 #include "core/camera_io.h"
 #include "core/marker_io.h"
+#include "core/view_regions.h"
 #include "tracking/apply_corrections.h"
 #include "tracking/fill_gaps.h"
 #include "tracking/labelled_markers.h"
@@ -32,7 +33,7 @@ namespace {
 constexpr int kFirstFrame = 1;  // of what is written, by C3D's custom
 
 struct TrackArguments {
-  std::vector<std::string> paths;
+  std::vector<std::string> paths, view_regions;
   std::string output, cameras, config, corrections;
   TemplateInput naming;
   CameraReadOptions read;
@@ -140,8 +141,10 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
     return tl::unexpected(checked.error());
   const Result<MarkerFormat> format = MarkerFormatOf(arguments.output);
   if (!format) return tl::unexpected(format.error());
-  const Result<CameraArray> array = ReadCameras(arguments.cameras, arguments.read);
+  Result<CameraArray> array = ReadCameras(arguments.cameras, arguments.read);
   if (!array) return tl::unexpected(array.error());
+  if (const auto set = SetViewRegions(arguments.view_regions, *array); !set)
+    return tl::unexpected(set.error());
   Result<AppliedCorrections> corrections =
       CorrectionsOf(arguments.corrections, kFirstFrame, *array);
   if (!corrections) return tl::unexpected(corrections.error());
@@ -187,6 +190,10 @@ ExitCode TrackCommand(const std::vector<std::string>& arguments) {
   line.Flag("-o,--output", values.output, "FILE",
             "marker file to write; its ending says the format")
       ->required();
+  line.Flag(
+      "--view-regions", values.view_regions, "VIEW=WxH+X+Y,...",
+      "where the picture shows a view alone, as front/left=640x720+640+0: width, height, left "
+      "and top in px");
   AddTemplateInput(line, values.naming);
   AddCorrectionsFlag(line, values.corrections);
   line.Stage("read", values.read);
