@@ -115,7 +115,7 @@ std::optional<Eigen::Matrix3d> CovarianceOf(const std::vector<SplitFrame>& frame
 // Where directions of mirrors are tried that match dots at all, the best first.
 std::vector<NominalParameters> TryDirections(const std::vector<SplitFrame>& frames,
                                              const Prior& prior, double gate_px) {
-  constexpr int kFocals = 41, kTilts = 41, kKept = 16;
+  constexpr int kFocals = 41, kTilts = 41, kKept = 8;
   constexpr double kSigmas = 3;
   constexpr std::size_t kFramesTried = 25;
   std::vector<SplitFrame> tried;
@@ -319,9 +319,8 @@ Result<Solution> SolutionOf(const DotVideo& video, const std::vector<SplitFrame>
         video.camera, frames.size(), video.pictures.size(), kFewestFrames));
   const double wanted = PairsToBeFound(frames);
   const std::optional<Solution> found = FindMirror(frames, prior);
-  const double pairs = found ? static_cast<double>(found->matched.size()) /
-                                   static_cast<double>(frames.size())
-                             : 0;
+  const double pairs =
+      found ? static_cast<double>(found->matched.size()) / static_cast<double>(frames.size()) : 0;
   if (pairs < wanted)
     return Fail(fmt::format(
         "{}: the dots of face and mirror do not match: {:.1f} a frame lie as dots and their "
@@ -335,13 +334,13 @@ Result<Solution> SolutionOf(const DotVideo& video, const std::vector<SplitFrame>
 
 void VisitOptions(NominalMirrorOptions& options, OptionVisitor& visit) {
   visit.Enumeration("mirror_side", options.mirror_side, {"by-region", "left", "right"},
-                    "uncalibrated: the side of the picture that shows the mirror");
+                    "the side of the picture that shows the mirror");
   visit("mirror_angle_deg", options.mirror_angle_deg,
-        "uncalibrated: between the mirror and the camera's axis; degrees");
+        "between the mirror and the camera's axis; degrees");
   visit("mirror_angle_sigma_deg", options.mirror_angle_sigma_deg,
-        "uncalibrated: how well that is known, SD; degrees");
+        "how well that is known, SD; degrees");
   visit("focal_px", options.focal_px,
-        "uncalibrated: focal length, where it is known to 5 %; else the mirror's angle tells it; "
+        "focal length, where it is known to 5 %; else the mirror's angle tells it; "
         "px");
 }
 
@@ -411,8 +410,8 @@ StageReport DescribeNominalMirror(const NominalMirror& mirror, const std::string
   StageReport report;
   report.stage = "uncalibrated";
   report.verdict = fmt::format(
-      "nothing was calibrated: lengths, by {}, are right to {:.1f} %, places of markers to one "
-      "another to {:.1f} mm besides; positions are relative to the nose",
+      "nothing was calibrated: lengths, by {}, are right to {:.1f} %, and the face's shape to "
+      "{:.1f} mm besides (standard deviations); positions are relative to the nose",
       scale_source, 100 * mirror.scale_sigma, shape_mm);
   report.figures = {{"pairs", mirror.pairs},
                     {"frames_looked_at", mirror.frames},
