@@ -96,8 +96,11 @@ Result<TrackedMarkers> FollowNominally(TrackArguments arguments, CameraArray& ar
   double& calibration_px = arguments.reconstruct.calibration_px;
   calibration_px = std::max(calibration_px, started->sigma_px());
   if (started->needs_length()) {
+    // A template that was learnt before is of the right size, and this is not.
+    TrackArguments rehearsal = arguments;
+    rehearsal.naming.known.clear();
     AppliedCorrections rehearsed = corrections;
-    const auto rough = Follow(arguments, started->array(), detected, rehearsed);
+    const auto rough = Follow(rehearsal, started->array(), detected, rehearsed);
     if (!rough) return tl::unexpected(rough.error());
     if (const auto scaled =
             started->ScaleTo(rough->clouds, rough->marker_template, rough->labelling);

@@ -115,9 +115,9 @@ std::optional<Eigen::Matrix3d> CovarianceOf(const std::vector<SplitFrame>& frame
 // Where directions of mirrors are tried that match dots at all, the best first.
 std::vector<NominalParameters> TryDirections(const std::vector<SplitFrame>& frames,
                                              const Prior& prior, double gate_px) {
-  constexpr int kFocals = 41, kTilts = 41, kKept = 8;
+  constexpr int kFocals = 61, kTilts = 81, kKept = 8;
   constexpr double kSigmas = 3;
-  constexpr std::size_t kFramesTried = 25;
+  constexpr std::size_t kFramesTried = 12;
   std::vector<SplitFrame> tried;
   for (std::size_t i = 0; i < frames.size(); i += frames.size() / kFramesTried + 1)
     tried.push_back(frames[i]);
@@ -143,7 +143,7 @@ std::vector<NominalParameters> TryDirections(const std::vector<SplitFrame>& fram
 // Matches and solves in turns, with less and less tolerance.
 std::optional<Solution> Refine(const std::vector<SplitFrame>& frames, const Prior& prior,
                                const NominalParameters& start, double diameter_px) {
-  constexpr std::array kGates = {0.5, 0.25, 0.12, 0.12, 0.12};  // diameters of dots
+  constexpr std::array kGates = {0.25, 0.25, 0.12, 0.12};  // diameters of dots
   Solution solution = {start, {}, 0};
   for (const double gate : kGates) {
     solution.matched = MatchMirrored(frames, solution.parameters, prior.side, gate * diameter_px);
