@@ -167,17 +167,24 @@ Result<void> WriteTracked(const TrackArguments& arguments, const CameraArray& ar
   return outputs.Commit();
 }
 
+// Without a calibration, nothing but names and sizes until dots were seen.
+Result<CameraArray> ArrayOf(const TrackArguments& arguments) {
+  Result<CameraArray> array = arguments.uncalibrated.enabled
+                                  ? NominalTake::ArrayOf(arguments.paths)
+                                  : ReadCameras(arguments.cameras, arguments.read);
+  if (!array) return array;
+  if (const auto set = SetViewRegions(arguments.view_regions, *array); !set)
+    return tl::unexpected(set.error());
+  return array;
+}
+
 Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   if (const auto checked = CheckOptions(arguments); !checked)
     return tl::unexpected(checked.error());
   const Result<MarkerFormat> format = MarkerFormatOf(arguments.output);
   if (!format) return tl::unexpected(format.error());
-  Result<CameraArray> array = arguments.uncalibrated.enabled
-                                  ? NominalTake::ArrayOf(arguments.paths)
-                                  : ReadCameras(arguments.cameras, arguments.read);
+  Result<CameraArray> array = ArrayOf(arguments);
   if (!array) return tl::unexpected(array.error());
-  if (const auto set = SetViewRegions(arguments.view_regions, *array); !set)
-    return tl::unexpected(set.error());
   Result<AppliedCorrections> corrections =
       CorrectionsOf(arguments.corrections, kFirstFrame, *array);
   if (!corrections) return tl::unexpected(corrections.error());
@@ -198,18 +205,19 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   const auto filled =
       WithProgress("filling gaps", [&] { return Fill(arguments, *array, *tracked, *corrections); });
   if (!filled) return tl::unexpected(filled.error());
-  const MarkerRecording markers =
+  const Result<MarkerRecording> markers =
       nominal ? nominal->RelativeToNose(filled->output) : filled->output;
-  if (const auto limit = LimitExceeded(markers, *format))
+  if (!markers) return tl::unexpected(markers.error());
+  if (const auto limit = LimitExceeded(*markers, *format))
     return Fail(fmt::format("the recording has {}; write another format", *limit));
   std::vector<StageReport> reports = {detection, report, filled->report};
   if (!corrections->empty()) reports.push_back(corrections->Report());
-  if (nominal) reports.push_back(nominal->Report(markers));
+  if (nominal) reports.push_back(nominal->Report(*markers));
   if (const auto written = WriteTracked(arguments, *array, *videos, *tracked, filled->output,
-                                        markers, *format, reports);
+                                        *markers, *format, reports);
       !written)
     return tl::unexpected(written.error());
-  for (const std::string& loss : LossesOf(markers, *format)) reports[1].warnings.push_back(loss);
+  for (const std::string& loss : LossesOf(*markers, *format)) reports[1].warnings.push_back(loss);
   return reports;
 }
 

@@ -63,9 +63,9 @@ Result<NominalScale> ScaleOf(const UncalibratedInput& input, const MarkerSet& se
 
 void AddUncalibratedInput(VerbLine& line, UncalibratedInput& input) {
   line.Flag("--uncalibrated", input.enabled,
-            "without a calibration: one camera before a mirror; positions relative to the nose");
+            "without any calibration: one camera before a mirror; positions relative to the nose");
   line.Flag("--dot-diameter-mm", input.dot_diameter_mm, "MM",
-            "diameter of the dots; uncalibrated, it tells the scale");
+            "uncalibrated: diameter of the dots, which tells the scale");
   line.Flag("--known-length", input.known_length, "A,B,MM",
             "instead: the distance between two markers that both views see, at rest");
   line.Stage("uncalibrated", input.mirror);
@@ -78,10 +78,11 @@ Result<void> CheckInput(const UncalibratedInput& input, const std::string& camer
       return Fail(
           "--cameras names the calibration of cameras and mirrors; of one camera before a mirror "
           "that nobody calibrated, --uncalibrated makes the best");
-    if (!input.known_length.empty() || !(input.mirror == NominalMirrorOptions()))
+    if (input.dot_diameter_mm != 0 || !input.known_length.empty() ||
+        !(input.mirror == NominalMirrorOptions()))
       return Fail(
-          "--known-length and what is said of the mirror are for --uncalibrated; with --cameras "
-          "the calibration knows it");
+          "--dot-diameter-mm, --known-length, --focal-px and what is said of the mirror are for "
+          "--uncalibrated; with --cameras the calibration knows it");
     return {};
   }
   if (!cameras.empty())
@@ -167,7 +168,12 @@ Result<void> NominalTake::ScaleTo(const PointClouds& clouds, const MarkerTemplat
   return {};
 }
 
-MarkerRecording NominalTake::RelativeToNose(const MarkerRecording& markers) const {
+Result<MarkerRecording> NominalTake::RelativeToNose(const MarkerRecording& markers) const {
+  if (!markers.tracks.Find(nose_))
+    return Fail(fmt::format(
+        "the template has no marker '{}', which is the tip of the nose in the map; give a map and "
+        "a template of the same markers",
+        nose_));
   return RelativeToMarker(markers, nose_);
 }
 

@@ -52,7 +52,8 @@ class NominalTake {
   Result<void> ScaleTo(const PointClouds& clouds, const MarkerTemplate& marker_template,
                        const Labelling& labelling);
 
-  MarkerRecording RelativeToNose(const MarkerRecording& markers) const;
+  // Refused where the template that gave the names does not know the map's nose.
+  Result<MarkerRecording> RelativeToNose(const MarkerRecording& markers) const;
   // `relative`: the frames that lost the nose are named.
   StageReport Report(const MarkerRecording& relative) const;
 
