@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "apps/calibrate_input.h"
 #include "apps/camera_input.h"
 #include "apps/corrections_input.h"
+#include "apps/mirror_regions.h"
 #include "apps/output_names.h"
 #include "apps/output_set.h"
 #include "apps/progress.h"
@@ -19,6 +21,7 @@
 #include "apps/uncalibrated.h"
 #include "apps/verbs.h"
 #include "core/camera_io.h"
+#include "core/check.h"
 #include "core/marker_io.h"
 #include "core/view_regions.h"
 #include "tracking/apply_corrections.h"
@@ -178,6 +181,17 @@ Result<CameraArray> ArrayOf(const TrackArguments& arguments) {
   return array;
 }
 
+// Before one mirror the dots themselves may show which are its.
+void SplitByDots(const TrackArguments& arguments, const std::vector<DetectedVideo>& videos,
+                 CameraArray& array, StageReport& report) {
+  const std::vector<std::string> regions =
+      RegionsByDots(array, videos.front().video, arguments.reconstruct);
+  if (regions.empty()) return;
+  ARTICAP_CHECK(SetViewRegions(regions, array).has_value());
+  report.texts.emplace_back("view_regions",
+                            fmt::format("by the dots: {}", fmt::join(regions, ",")));
+}
+
 Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   if (const auto checked = CheckOptions(arguments); !checked)
     return tl::unexpected(checked.error());
@@ -191,8 +205,9 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   const Result<std::vector<DetectedVideo>> videos =
       DetectVideos(*array, arguments.paths, arguments.detect, RoomForPictures(arguments.show));
   if (!videos) return tl::unexpected(videos.error());
-  const StageReport detection = DescribeDetection(*videos, arguments.detect);
+  StageReport detection = DescribeDetection(*videos, arguments.detect);
   if (!detection.IsUsable()) return std::vector<StageReport>{detection};
+  if (!arguments.uncalibrated.enabled) SplitByDots(arguments, *videos, *array, detection);
   std::optional<NominalTake> nominal;
   const Result<TrackedMarkers> tracked = WithProgress("tracking", [&] {
     return arguments.uncalibrated.enabled

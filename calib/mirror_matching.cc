@@ -13,15 +13,8 @@
 namespace articap {
 namespace {
 
-// A band of the picture, px.
-struct Band {
-  double from_px = 0;
-  double to_px = 0;
-  double width_px() const { return to_px - from_px; }
-};
-
 // The bands between dots that hold one in few of the frames at most, the widest first.
-std::vector<Band> FreeBands(const DotVideo& video, double step_px) {
+std::vector<PictureBand> FreeBands(const DotVideo& video, double step_px) {
   constexpr double kFew = 0.1;  // of the frames
   std::vector<int> dots(static_cast<std::size_t>(video.width / step_px) + 1, 0);
   for (const DotPicture& picture : video.pictures)
@@ -31,7 +24,7 @@ std::vector<Band> FreeBands(const DotVideo& video, double step_px) {
       ++dots[static_cast<std::size_t>(bin)];
     }
   const double few = kFew * static_cast<double>(video.pictures.size());
-  std::vector<Band> bands;
+  std::vector<PictureBand> bands;
   int last = -1;  // bin with dots
   for (int bin = 0; bin < static_cast<int>(dots.size()); ++bin) {
     if (dots[bin] <= few) continue;
@@ -39,7 +32,7 @@ std::vector<Band> FreeBands(const DotVideo& video, double step_px) {
     last = bin;
   }
   std::sort(bands.begin(), bands.end(),
-            [](const Band& a, const Band& b) { return a.width_px() > b.width_px(); });
+            [](const PictureBand& a, const PictureBand& b) { return a.width_px() > b.width_px(); });
   return bands;
 }
 
@@ -85,23 +78,20 @@ Nearest NearestOf(const SplitFrame& frame, const Eigen::Vector3d& normal, double
 
 }  // namespace
 
-Result<PictureRegion> MirrorHalf(const DotVideo& video, MirrorSide side) {
+Result<PictureBand> BandBesideMirror(const DotVideo& video) {
   constexpr double kLeastDiameters = 3, kClearly = 1.5;
   const double diameter_px = MedianDiameter_px(video);
-  const std::vector<Band> bands =
-      diameter_px > 0 ? FreeBands(video, diameter_px) : std::vector<Band>();
+  const std::vector<PictureBand> bands =
+      diameter_px > 0 ? FreeBands(video, diameter_px) : std::vector<PictureBand>();
   const double widest_px = bands.empty() ? 0 : bands[0].width_px();
   const double next_px = bands.size() < 2 ? 0 : bands[1].width_px();
-  if (widest_px < kLeastDiameters * diameter_px || widest_px < kClearly * next_px || bands.empty())
+  if (bands.empty() || widest_px < kLeastDiameters * diameter_px || widest_px < kClearly * next_px)
     return Fail(fmt::format(
         "the dots do not show where the face ends and the mirror begins: the widest free bands "
         "between them are {:.0f} and {:.0f} px; is there a mirror in the picture, and are its dots "
-        "found? Draw its region, as --view-regions {}/mirror={}x{}+{}+0",
-        widest_px, next_px, video.camera, video.width / 2, video.height,
-        side == MirrorSide::kLeft ? 0 : video.width - video.width / 2));
-  const auto middle = static_cast<int>(std::lround((bands[0].from_px + bands[0].to_px) / 2));
-  if (side == MirrorSide::kLeft) return PictureRegion{0, 0, middle, video.height};
-  return PictureRegion{middle, 0, video.width - middle, video.height};
+        "found?",
+        widest_px, next_px));
+  return bands[0];
 }
 
 std::vector<SplitFrame> SplitFrames(const DotVideo& video, const CameraArray& array, int most) {

@@ -17,9 +17,17 @@ namespace articap {
 // Of the picture; kByRegion: where the mirror's region is drawn.
 enum class MirrorSide : std::uint8_t { kByRegion, kLeft, kRight };
 
-// The side of the picture that shows the mirror, full height, from the middle of the widest band
-// that is as good as free of dots all the time. Refused where no band is clearly the widest.
-Result<PictureRegion> MirrorHalf(const DotVideo& video, MirrorSide side);
+// A band of the picture from top to bottom, px.
+struct PictureBand {
+  double from_px = 0;
+  double to_px = 0;
+
+  double width_px() const { return to_px - from_px; }
+};
+
+// The widest band between dots that is as good as free of them all the time: between the face and
+// its reflection. Refused where none is clearly the widest.
+Result<PictureBand> BandBesideMirror(const DotVideo& video);
 
 // The dots of a frame, from the middle of the picture, px.
 struct SplitFrame {

@@ -284,16 +284,28 @@ double SideOf(const CameraArray& array) {
   return 2 * region.left + region.width > array.cameras[0].width ? 1 : -1;
 }
 
+// How to draw a region, for messages.
+std::string Drawn(const DotVideo& video, MirrorSide side) {
+  const int half = video.width / 2;
+  const int left = side == MirrorSide::kLeft ? 0 : video.width - half;
+  return fmt::format("--view-regions {}/mirror={}", video.camera,
+                     FormatPictureRegion({left, 0, half, video.height}));
+}
+
 Result<CameraArray> WithMirrorRegion(const DotVideo& video, CameraArray array, MirrorSide side) {
   if (array.mirrors[0].region) return array;
   if (side == MirrorSide::kByRegion)
     return Fail(fmt::format(
         "which part of the picture shows the mirror? Say --mirror-side left or right, of the "
-        "picture, or draw its region, as --view-regions {}/mirror={}x{}+{}+0",
-        video.camera, video.width / 2, video.height, video.width - video.width / 2));
-  const Result<PictureRegion> half = MirrorHalf(video, side);
-  if (!half) return tl::unexpected(half.error());
-  array.mirrors[0].region = *half;
+        "picture, or draw its region, as {}",
+        Drawn(video, side)));
+  const Result<PictureBand> band = BandBesideMirror(video);
+  if (!band)
+    return Fail(fmt::format("{} Draw its region, as {}", band.error().message, Drawn(video, side)));
+  const auto middle = static_cast<int>(std::lround((band->from_px + band->to_px) / 2));
+  array.mirrors[0].region = side == MirrorSide::kLeft
+                                ? PictureRegion{0, 0, middle, video.height}
+                                : PictureRegion{middle, 0, video.width - middle, video.height};
   return array;
 }
 
