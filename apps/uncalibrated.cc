@@ -5,16 +5,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "apps/calibrate_input.h"
 #include "apps/take.h"
 #include "core/csv_values.h"
+#include "core/statistics.h"
 #include "tracking/learn_template.h"
 #include "tracking/relative_to_marker.h"
-#include "core/statistics.h"
 
 namespace articap {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "core/statistics.h"
 
-
 namespace articap {
 namespace {
 

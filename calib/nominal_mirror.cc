@@ -28,6 +28,7 @@ constexpr double kLeastSigma_px = 0.25;
 // An edge may be off by so much, SD: blur, compression, saturation.
 constexpr double kEdgeSigma_px = 0.1;
 constexpr int kMostFrames = 200;
+constexpr double kNormal = 1.4826;  // standard deviation over median distance
 
 // What is known before any dot is seen.
 struct Prior {
@@ -60,7 +61,6 @@ double SigmaOf_px(const std::vector<SplitFrame>& frames, const Solution& solutio
                         1}(solution.parameters.data(), &distance_px);
     distances_px.push_back(std::abs(distance_px));
   }
-  constexpr double kNormal = 1.4826;  // standard deviation over median distance
   return kNormal * MedianOf(std::move(distances_px));
 }
 
@@ -210,7 +210,6 @@ ScaleFound ScaleByDiameter(const PlacedDots& placed, double dot_diameter_mm, dou
   const double median = MedianOf(placed.scales);
   std::vector<double> apart;
   for (const double scale : placed.scales) apart.push_back(std::abs(scale / median - 1));
-  constexpr double kNormal = 1.4826;
   return {median * dot_diameter_mm, std::hypot(kNormal * MedianOf(std::move(apart)),
                                                placed.oblique / 2, kEdgeSigma_px / diameter_px)};
 }
@@ -230,8 +229,7 @@ ScaleFound ScaleByHeights(const std::vector<SplitFrame>& frames, const PlacedDot
     const auto count = static_cast<double>(frame.direct_px.size());
     spreads_px.push_back(std::sqrt(std::max(0.0, squares / count - std::pow(sum / count, 2))));
   }
-  const double spread =
-      MedianOf(std::move(spreads_px)) * MedianOf(std::move(depths)) / focal_px;
+  const double spread = MedianOf(std::move(spreads_px)) * MedianOf(std::move(depths)) / focal_px;
   return {usual_spread_mm / std::max(spread, 1e-9), kRoughly};
 }
 
