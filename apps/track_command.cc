@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "apps/calibrate_input.h"
 #include "apps/camera_input.h"
 #include "apps/corrections_input.h"
+#include "apps/mirror_regions.h"
 #include "apps/output_names.h"
 #include "apps/output_set.h"
 #include "apps/progress.h"
@@ -16,9 +18,12 @@
 #include "apps/template_input.h"
 #include "apps/track_detection.h"
 #include "apps/track_pictures.h"
+#include "apps/uncalibrated.h"
 #include "apps/verbs.h"
 #include "core/camera_io.h"
+#include "core/check.h"
 #include "core/marker_io.h"
+#include "core/view_regions.h"
 #include "tracking/apply_corrections.h"
 #include "tracking/fill_gaps.h"
 #include "tracking/labelled_markers.h"
@@ -32,9 +37,10 @@ namespace {
 constexpr int kFirstFrame = 1;  // of what is written, by C3D's custom
 
 struct TrackArguments {
-  std::vector<std::string> paths;
+  std::vector<std::string> paths, view_regions;
   std::string output, cameras, config, corrections;
   TemplateInput naming;
+  UncalibratedInput uncalibrated;
   CameraReadOptions read;
   DetectionOptions detect;
   SynchronizeOptions synchronize;
@@ -81,6 +87,34 @@ Result<TrackedMarkers> Follow(const TrackArguments& arguments, const CameraArray
   return result;
 }
 
+// The same by a nominal camera and mirror, which replace `array`. A known length waits for labels:
+// everything is found twice then.
+Result<TrackedMarkers> FollowNominally(TrackArguments arguments, CameraArray& array,
+                                       std::span<const DetectedVideo> detected,
+                                       AppliedCorrections& corrections,
+                                       std::optional<NominalTake>& nominal) {
+  Result<NominalTake> started =
+      NominalTake::Start(arguments.uncalibrated, arguments.naming, array, detected.front().video);
+  if (!started) return tl::unexpected(started.error());
+  double& calibration_px = arguments.reconstruct.calibration_px;
+  calibration_px = std::max(calibration_px, started->sigma_px());
+  if (started->needs_length()) {
+    // A template that was learnt before is of the right size, and this is not.
+    TrackArguments rehearsal = arguments;
+    rehearsal.naming.known.clear();
+    AppliedCorrections rehearsed = corrections;
+    const auto rough = Follow(rehearsal, started->array(), detected, rehearsed);
+    if (!rough) return tl::unexpected(rough.error());
+    if (const auto scaled =
+            started->ScaleTo(rough->clouds, rough->marker_template, rough->labelling);
+        !scaled)
+      return tl::unexpected(scaled.error());
+  }
+  nominal = *std::move(started);
+  array = nominal->array();
+  return Follow(arguments, array, detected, corrections);
+}
+
 Result<StageResult<MarkerRecording>> Fill(const TrackArguments& arguments, const CameraArray& array,
                                           const TrackedMarkers& tracked,
                                           const AppliedCorrections& corrections) {
@@ -106,10 +140,11 @@ std::vector<std::filesystem::path> InputsOf(const TrackArguments& arguments) {
   return inputs;
 }
 
+// `written`: the markers as the file has them, which need not be in the stage.
 Result<void> WriteTracked(const TrackArguments& arguments, const CameraArray& array,
                           const std::vector<DetectedVideo>& videos, const TrackedMarkers& tracked,
-                          const MarkerRecording& markers, MarkerFormat format,
-                          const std::vector<StageReport>& reports) {
+                          const MarkerRecording& markers, const MarkerRecording& written,
+                          MarkerFormat format, const std::vector<StageReport>& reports) {
   const auto& instants = tracked.dots.instants;
   const StageTracks& tracks = markers.tracks;
   const TakeReview review = ReviewOf(tracked.clouds, tracked.labelling, markers, array, instants);
@@ -123,7 +158,7 @@ Result<void> WriteTracked(const TrackArguments& arguments, const CameraArray& ar
       .start = tracks.start(),
       .first_frame = tracks.first_frame()};
   OutputSet outputs;
-  outputs.Add(arguments.output, FormatMarkers(markers, format));
+  outputs.Add(arguments.output, FormatMarkers(written, format));
   if (arguments.naming.known.empty())
     outputs.Add(Beside(arguments.output, ".template.toml"),
                 WriteMarkerTemplate(tracked.marker_template));
@@ -135,12 +170,34 @@ Result<void> WriteTracked(const TrackArguments& arguments, const CameraArray& ar
   return outputs.Commit();
 }
 
+// Without a calibration, nothing but names and sizes until dots were seen.
+Result<CameraArray> ArrayOf(const TrackArguments& arguments) {
+  Result<CameraArray> array = arguments.uncalibrated.enabled
+                                  ? NominalTake::ArrayOf(arguments.paths)
+                                  : ReadCameras(arguments.cameras, arguments.read);
+  if (!array) return array;
+  if (const auto set = SetViewRegions(arguments.view_regions, *array); !set)
+    return tl::unexpected(set.error());
+  return array;
+}
+
+// Before one mirror the dots themselves may show which are its.
+void SplitByDots(const TrackArguments& arguments, const std::vector<DetectedVideo>& videos,
+                 CameraArray& array, StageReport& report) {
+  const std::vector<std::string> regions =
+      RegionsByDots(array, videos.front().video, arguments.reconstruct);
+  if (regions.empty()) return;
+  ARTICAP_CHECK(SetViewRegions(regions, array).has_value());
+  report.texts.emplace_back("view_regions",
+                            fmt::format("by the dots: {}", fmt::join(regions, ",")));
+}
+
 Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   if (const auto checked = CheckOptions(arguments); !checked)
     return tl::unexpected(checked.error());
   const Result<MarkerFormat> format = MarkerFormatOf(arguments.output);
   if (!format) return tl::unexpected(format.error());
-  const Result<CameraArray> array = ReadCameras(arguments.cameras, arguments.read);
+  Result<CameraArray> array = ArrayOf(arguments);
   if (!array) return tl::unexpected(array.error());
   Result<AppliedCorrections> corrections =
       CorrectionsOf(arguments.corrections, kFirstFrame, *array);
@@ -148,26 +205,34 @@ Result<std::vector<StageReport>> RunTrack(const TrackArguments& arguments) {
   const Result<std::vector<DetectedVideo>> videos =
       DetectVideos(*array, arguments.paths, arguments.detect, RoomForPictures(arguments.show));
   if (!videos) return tl::unexpected(videos.error());
-  const StageReport detection = DescribeDetection(*videos, arguments.detect);
+  StageReport detection = DescribeDetection(*videos, arguments.detect);
   if (!detection.IsUsable()) return std::vector<StageReport>{detection};
-  const Result<TrackedMarkers> tracked =
-      WithProgress("tracking", [&] { return Follow(arguments, *array, *videos, *corrections); });
+  if (!arguments.uncalibrated.enabled) SplitByDots(arguments, *videos, *array, detection);
+  std::optional<NominalTake> nominal;
+  const Result<TrackedMarkers> tracked = WithProgress("tracking", [&] {
+    return arguments.uncalibrated.enabled
+               ? FollowNominally(arguments, *array, *videos, *corrections, nominal)
+               : Follow(arguments, *array, *videos, *corrections);
+  });
   if (!tracked) return Fail(WithReasons(tracked.error().message, detection));
   const StageReport report = DescribeLabelling(tracked->clouds, tracked->marker_template,
                                                tracked->labelling, arguments.label);
   const auto filled =
       WithProgress("filling gaps", [&] { return Fill(arguments, *array, *tracked, *corrections); });
   if (!filled) return tl::unexpected(filled.error());
-  const MarkerRecording& markers = filled->output;
-  if (const auto limit = LimitExceeded(markers, *format))
+  const Result<MarkerRecording> markers =
+      nominal ? nominal->RelativeToNose(filled->output) : filled->output;
+  if (!markers) return tl::unexpected(markers.error());
+  if (const auto limit = LimitExceeded(*markers, *format))
     return Fail(fmt::format("the recording has {}; write another format", *limit));
   std::vector<StageReport> reports = {detection, report, filled->report};
   if (!corrections->empty()) reports.push_back(corrections->Report());
-  if (const auto written =
-          WriteTracked(arguments, *array, *videos, *tracked, markers, *format, reports);
+  if (nominal) reports.push_back(nominal->Report(*markers));
+  if (const auto written = WriteTracked(arguments, *array, *videos, *tracked, filled->output,
+                                        *markers, *format, reports);
       !written)
     return tl::unexpected(written.error());
-  for (const std::string& loss : LossesOf(markers, *format)) reports[1].warnings.push_back(loss);
+  for (const std::string& loss : LossesOf(*markers, *format)) reports[1].warnings.push_back(loss);
   return reports;
 }
 
@@ -182,11 +247,15 @@ ExitCode TrackCommand(const std::vector<std::string>& arguments) {
       "articap track take01.mp4 --cameras calibration.toml --map mirror6 -o take01.c3d");
   TrackArguments values;
   line.Arguments("VIDEO", values.paths, "the videos, one a camera, or a take");
-  line.Flag("--cameras", values.cameras, "FILE", "calibration of the cameras and mirrors")
-      ->required();
+  line.Flag("--cameras", values.cameras, "FILE", "calibration of the cameras and mirrors");
+  AddUncalibratedInput(line, values.uncalibrated);
   line.Flag("-o,--output", values.output, "FILE",
             "marker file to write; its ending says the format")
       ->required();
+  line.Flag(
+      "--view-regions", values.view_regions, "VIEW=WxH+X+Y,...",
+      "where the picture shows a view alone, as front/left=640x720+640+0: width, height, left "
+      "and top in px");
   AddTemplateInput(line, values.naming);
   AddCorrectionsFlag(line, values.corrections);
   line.Stage("read", values.read);
@@ -199,6 +268,8 @@ ExitCode TrackCommand(const std::vector<std::string>& arguments) {
   line.Stage("show", values.show);
   if (const auto exit = line.Parse(arguments)) return *exit;
   values.config = line.config_path();
+  if (const auto checked = CheckInput(values.uncalibrated, values.cameras, values.naming); !checked)
+    return FailWith(ExitCode::kWrongUsage, checked.error().message);
   const auto reports = RunTrack(values);
   return reports ? line.Finish(*reports) : FailWith(reports.error());
 }

@@ -92,6 +92,25 @@ void DrawCaption(const PicturedTake& take, int instant, int scale, Picture& pict
   DrawEdgedText(picture, kLegend, 4 * scale, picture.height - 11 * scale, scale, kWhite);
 }
 
+// Outlines of the parts of a camera's picture that views have to themselves, with their names.
+void DrawRegions(const CameraArray& array, int camera, const Magnification& shown,
+                 Picture& picture) {
+  const Eigen::Vector3f color(0.05F, 0.3F, 0.05F);
+  for (const View& view : array.views()) {
+    const auto& region = array.RegionOf(view);
+    if (view.camera != camera || !region) continue;
+    const Eigen::Vector2d near = shown(Eigen::Vector2d(region->left, region->top));
+    const Eigen::Vector2d far =
+        shown(Eigen::Vector2d(region->left + region->width - 1, region->top + region->height - 1));
+    for (const Eigen::Vector2d& corner : {near, far}) {
+      DrawLine(picture, corner, {near.x(), far.y()}, 1, color);
+      DrawLine(picture, corner, {far.x(), near.y()}, 1, color);
+    }
+    const Eigen::Vector2i text_px = near.cast<int>() + Eigen::Vector2i(4, 24);
+    DrawEdgedText(picture, array.NameOf(view), text_px.x(), text_px.y(), 2, kWhite);
+  }
+}
+
 // The frames of a camera that show doubts: which doubts each.
 std::multimap<std::int64_t, int> PicturesWanted(const PicturedTake& take,
                                                 const std::vector<Doubt>& doubts, int camera) {
@@ -209,6 +228,7 @@ Result<void> WriteOverlay(const PicturedTake& take, int camera, double crf,
     const int instant = take.InstantOf(camera, frame.time);
     Picture picture = PictureOf(frame, 0, 0, info.width, info.height);
     if (zoom > 1) picture = Enlarged(picture, zoom);
+    DrawRegions(take.array, camera, {0, 0, zoom}, picture);
     DrawMarks(take.marks.At(instant), camera, {0, 0, zoom}, {take.names, {}, 2, false}, picture);
     DrawCaption(take, instant, 2, picture);
     written =

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <utility>
 
+#include "calib/mirror_rays.h"
 #include "core/csv_rows.h"
 #include "core/csv_values.h"
 #include "core/file_io.h"
@@ -54,12 +55,6 @@ Result<std::optional<DotPair>> ParsePair(const std::vector<std::string_view>& ce
   return pair;
 }
 
-// Two rays of the camera to one dot, z = 1.
-struct RayPair {
-  Eigen::Vector3d direct;
-  Eigen::Vector3d mirrored;
-};
-
 std::vector<RayPair> RaysOf(const Lens& lens, const std::vector<DotPair>& dots) {
   std::vector<RayPair> rays;
   for (const DotPair& dot : dots) {
@@ -68,15 +63,6 @@ std::vector<RayPair> RaysOf(const Lens& lens, const std::vector<DotPair>& dots) 
     if (direct && mirrored) rays.push_back({*direct, *mirrored});
   }
   return rays;
-}
-
-// How far, px, a pair is from lying in one plane with the normal: Sampson's distance.
-double SampsonDistance_px(const RayPair& rays, const Eigen::Vector3d& normal, double focal_px) {
-  const double coplanar = normal.dot(rays.direct.cross(rays.mirrored));
-  const Eigen::Vector3d by_direct = rays.mirrored.cross(normal);
-  const Eigen::Vector3d by_mirrored = normal.cross(rays.direct);
-  return focal_px * coplanar /
-         std::sqrt(by_direct.head<2>().squaredNorm() + by_mirrored.head<2>().squaredNorm());
 }
 
 struct FoundNormal {
@@ -139,18 +125,6 @@ std::optional<FoundNormal> FindNormal(const std::vector<RayPair>& rays, double f
     if (change.norm() < 1e-12) break;
   }
   return found;
-}
-
-// Where a dot is for a mirror at distance 1: along its ray, so that its reflection lies on the
-// other. Nothing where it would be behind the camera or the mirror.
-std::optional<Eigen::Vector3d> PlaceDot(const RayPair& rays, const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d reflected = rays.direct - 2 * normal.dot(rays.direct) * normal;
-  Eigen::Matrix<double, 3, 2> system;
-  system << rays.mirrored, -reflected;
-  const Eigen::Vector2d depths =
-      (system.transpose() * system).ldlt().solve(system.transpose() * (2 * normal));
-  if (!(depths.minCoeff() > 0) || !(depths(1) * normal.dot(rays.direct) < 1)) return std::nullopt;
-  return depths(1) * rays.direct;
 }
 
 struct UnitLengths {

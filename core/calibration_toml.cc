@@ -31,15 +31,20 @@ std::string SigmaTable(const std::string& table, CameraSigmas sigmas) {
   return lines.empty() ? "" : fmt::format("\n[{}.sigmas]\n{}", table, lines);
 }
 
+std::string RegionLine(const std::optional<PictureRegion>& region) {
+  if (!region) return "";
+  return fmt::format("region = {}\n", QuotedToml(FormatPictureRegion(*region)));
+}
+
 std::string CameraTable(const Camera& camera, const std::string& table) {
   return fmt::format(
       "\n[{}]\nname = {}\nsize = [{}, {}]\nmatrix = {}\ndistortions = {}\nrotation = {}\n"
-      "translation = {}\nfisheye = false\ntime_offset_s = {}\n{}",
+      "translation = {}\nfisheye = false\ntime_offset_s = {}\n{}{}",
       table, QuotedToml(camera.name), camera.width, camera.height,
       TomlMatrix(MatrixOf(camera.lens)), TomlList(DistortionList(camera.lens)),
       TomlList(SettledRotationVector(camera.cam_from_stage.rotation)),
       TomlList(camera.cam_from_stage.translation_mm), TomlFloat(camera.time_offset_s),
-      SigmaTable(table, camera.sigmas));
+      RegionLine(camera.region), SigmaTable(table, camera.sigmas));
 }
 
 std::string MirrorTable(const Mirror& mirror, const std::string& camera_name, std::size_t number) {
@@ -48,6 +53,7 @@ std::string MirrorTable(const Mirror& mirror, const std::string& camera_name, st
       "glass_mm = {}\nglass_index = {}\n",
       number, QuotedToml(mirror.name), QuotedToml(camera_name), TomlList(mirror.normal_in_stage),
       TomlFloat(mirror.distance_mm), TomlFloat(mirror.glass_mm), TomlFloat(mirror.glass_index));
+  text += RegionLine(mirror.region);
   if (std::isfinite(mirror.normal_sigma_rad))
     text += fmt::format("normal_sigma_rad = {}\n", TomlFloat(mirror.normal_sigma_rad));
   if (std::isfinite(mirror.distance_sigma_mm))

@@ -2,6 +2,7 @@
 #include "core/camera.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "core/check.h"
@@ -102,6 +103,25 @@ int CameraArray::IndexOf(const View& view) const {
 std::string CameraArray::NameOf(const View& view) const {
   const std::string& camera = cameras.at(view.camera).name;
   return view.mirror < 0 ? camera : camera + "/" + mirrors.at(view.mirror).name;
+}
+
+const std::optional<PictureRegion>& CameraArray::RegionOf(const View& view) const {
+  return view.mirror < 0 ? cameras.at(view.camera).region : mirrors.at(view.mirror).region;
+}
+
+std::optional<PictureRegion>& CameraArray::RegionOf(const View& view) {
+  return view.mirror < 0 ? cameras.at(view.camera).region : mirrors.at(view.mirror).region;
+}
+
+bool CameraArray::MayShow(const View& view, const Eigen::Vector2d& point_px) const {
+  if (const auto& region = RegionOf(view)) return region->Contains(point_px);
+  const auto shows = [&](const std::optional<PictureRegion>& region) {
+    return region && region->Contains(point_px);
+  };
+  return !shows(cameras.at(view.camera).region) &&
+         std::none_of(mirrors.begin(), mirrors.end(), [&](const Mirror& mirror) {
+           return mirror.camera == view.camera && shows(mirror.region);
+         });
 }
 
 std::optional<Eigen::Vector2d> Project(const CameraArray& array, const View& view,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/picture_region.h"
 #include "core/transforms.h"
 
 namespace articap {
@@ -82,6 +83,8 @@ struct Camera {
   Rigid3d cam_from_stage;
   // To be added to the times of this camera's frames to have them on the clock of the array.
   double time_offset_s = 0;
+  // Where its picture shows what it sees directly; nothing: wherever no mirror's region is.
+  std::optional<PictureRegion> region;
   CameraSigmas sigmas;
 };
 
@@ -95,6 +98,8 @@ struct Mirror {
   // A second-surface mirror: glass of this thickness lies before the plane; 0 for none.
   double glass_mm = 0;
   double glass_index = 1.52;
+  // Where the camera's picture shows the mirror; nothing: wherever no other view's region is.
+  std::optional<PictureRegion> region;
   // Standard deviations: of the normal's direction (the larger of its two), and of the distance.
   double normal_sigma_rad = CameraSigmas::kUnknown;
   double distance_sigma_mm = CameraSigmas::kUnknown;
@@ -126,6 +131,12 @@ struct CameraArray {
   int IndexOf(const View& view) const;
   // "left", or "left/mirror".
   std::string NameOf(const View& view) const;
+  const std::optional<PictureRegion>& RegionOf(const View& view) const;
+  std::optional<PictureRegion>& RegionOf(const View& view);
+  // Whether what appears there may be seen by this view. A view with a region shows nothing outside
+  // of it, one without shows nothing within the regions of its camera's other views. Where regions
+  // overlap, it may be either's.
+  bool MayShow(const View& view, const Eigen::Vector2d& point_px) const;
 };
 
 // Where a view shows a point of the stage; nothing where it is not ahead of the camera.

@@ -76,6 +76,7 @@ class Instant {
     for (int dot = 0; dot < static_cast<int>(dots.size()); ++dot) {
       // Of its diameter, SD and the farthest: half of a disc has its middle 0.21 diameters aside.
       constexpr double kHidden = 0.1, kMostHidden = 0.25;
+      if (!array_.MayShow(projection.view, dots[dot].center_px)) continue;
       const double diameter_px = dots[dot].diameter_px();
       const bool is_hidden = dots[dot].occluded && HalvesCount();
       const double slack_px =

@@ -65,7 +65,9 @@ void TakeMarks::AddMarks(int frame, int marker, const CloudPoint* point, FrameMa
       }
     if (!mark.dot_px && review_.markers[marker].seen_by_view[v] < kLeastShareOfFrames) continue;
     const auto place_px = Project(array_, views[v], *place_mm);
-    if (!place_px || !IsWithin(array_.cameras[views[v].camera], *place_px)) continue;
+    if (!place_px || !IsWithin(array_.cameras[views[v].camera], *place_px) ||
+        !array_.MayShow(views[v], *place_px))
+      continue;
     mark.place_px = *place_px;
     marks.markers.push_back(mark);
   }

@@ -172,6 +172,7 @@ class CalibrationReader {
     auto camera = CameraTableReader(table, options_, where).Read(name);
     if (fault_) return tl::unexpected(*fault_);
     if (!camera) return tl::unexpected(camera.error());
+    ReadRegion(table, camera->region);
     ReadSigmas(table, *camera);
     if (!table.Has("rotation")) without_pose_.push_back(name);
     CheckKeys(table);
@@ -200,6 +201,15 @@ class CalibrationReader {
     return true;
   }
 
+  void ReadRegion(const TomlReader& table, std::optional<PictureRegion>& region) {
+    if (!table.Has("region")) return;
+    const Result<PictureRegion> read = ParsePictureRegion(table.Text("region"));
+    if (read)
+      region = *read;
+    else
+      table.Fault("region", read.error().message);
+  }
+
   void ReadSigmas(const TomlReader& table, Camera& camera) {
     const auto sigmas = table.Table("sigmas");
     if (!sigmas) return;
@@ -215,7 +225,7 @@ class CalibrationReader {
   void CheckKeys(const TomlReader& table) {
     const std::initializer_list<std::string_view> known = {
         "name",        "size",    "matrix",        "distortions", "rotation",
-        "translation", "fisheye", "time_offset_s", "sigmas"};
+        "translation", "fisheye", "time_offset_s", "sigmas",      "region"};
     if (reading_.format == CameraFormat::kArticap) return table.AllowOnly(known);
     // Caliscope's numbers of cameras, and what IsLeftOut() has seen to.
     const std::set<std::string_view> used = {"cam_id", "port", "rotation_count", "ignore"};
@@ -265,7 +275,7 @@ class CalibrationReader {
   Result<void> ReadMirror(const CameraTable& found) {
     const std::string where = fmt::format("{}, metadata.{}", source_name_, found.key);
     const TomlReader table(*found.table, where, fault_);
-    table.AllowOnly({"name", "camera", "normal", "distance_mm", "glass_mm", "glass_index",
+    table.AllowOnly({"name", "camera", "normal", "distance_mm", "glass_mm", "glass_index", "region",
                      "normal_sigma_rad", "distance_sigma_mm"});
     Mirror mirror;
     mirror.name = table.Text("name");
@@ -274,6 +284,7 @@ class CalibrationReader {
     mirror.distance_mm = table.Number("distance_mm");
     mirror.glass_mm = table.Number("glass_mm", mirror.glass_mm);
     mirror.glass_index = table.Number("glass_index", mirror.glass_index);
+    ReadRegion(table, mirror.region);
     mirror.normal_sigma_rad = table.Number("normal_sigma_rad", mirror.normal_sigma_rad);
     mirror.distance_sigma_mm = table.Number("distance_sigma_mm", mirror.distance_sigma_mm);
     if (fault_) return tl::unexpected(*fault_);

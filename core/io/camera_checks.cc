@@ -7,6 +7,7 @@
 
 #include "core/io/camera_parts.h"
 #include "core/io/text.h"
+#include "core/view_regions.h"
 
 namespace articap {
 namespace {
@@ -137,6 +138,8 @@ Result<void> CheckCameras(const CameraArray& array, const std::string& source_na
     if (!names.insert(array.cameras[mirror.camera].name + "/" + mirror.name).second)
       return Fail(where + ": the camera has two of that name");
   }
+  if (const auto checked = CheckRegions(array); !checked)
+    return Fail(fmt::format("{}: {}", source_name, checked.error().message));
   return {};
 }
 

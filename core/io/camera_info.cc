@@ -76,6 +76,9 @@ StageReport DescribeCameras(const CameraArray& array, const std::string& source_
                     {"mirrors", static_cast<double>(array.mirrors.size())}};
   if (array.cameras.size() > 1) report.figures.emplace_back("baseline_mm", BaselineOf(array));
   if (!array.source.empty()) report.texts = {{"source", array.source}};
+  for (const View& view : array.views())
+    if (const auto& region = array.RegionOf(view))
+      report.texts.emplace_back("region_of_" + array.NameOf(view), FormatPictureRegion(*region));
   report.tables = {LensTable(array), PlaceTable(array)};
   if (!array.mirrors.empty()) report.tables.push_back(MirrorTable(array));
   return report;
