@@ -23,12 +23,6 @@ double RoundnessOf(const Eigen::Matrix2d& shape) {
   return std::sqrt(std::max(0.0, mean - apart) / (mean + apart));
 }
 
-// The ellipse with its border moved outwards; exact for circles.
-Eigen::Matrix2d Grown(const Eigen::Matrix2d& shape, double by_px) {
-  const double radius_px = std::pow(shape.determinant(), 0.25);
-  return shape + by_px * (2 * radius_px + by_px) * Eigen::Matrix2d::Identity();
-}
-
 float ShortestOf(const Eigen::Matrix2d& shape) {
   const double mean = shape.trace() / 2;
   const double apart = std::sqrt(std::max(0.0, mean * mean - shape.determinant()));
@@ -62,6 +56,11 @@ DotEllipse EllipseOf(const Eigen::Vector2d& center_px, const Eigen::Matrix2d& sh
 }
 
 }  // namespace
+
+Eigen::Matrix2d Grown(const Eigen::Matrix2d& shape_px2, double by_px) {
+  const double radius_px = std::pow(shape_px2.determinant(), 0.25);
+  return shape_px2 + by_px * (2 * radius_px + by_px) * Eigen::Matrix2d::Identity();
+}
 
 double LargestBlur(double radius_px) { return 0.8 + 0.3 * radius_px; }
 
@@ -106,14 +105,23 @@ void RunJoiner::Join(const std::vector<DotRun>& runs, int step_y, std::vector<Do
 std::optional<DotBlob> DotBlobFinder::Find(const PixelReader& reader, const DotSeed& seed,
                                            const DotBlobLimits& limits, const PixelNoise& noise,
                                            DotPixels& pixels) {
+  if (auto blob = FindAbove(reader, seed, limits, noise, {}, pixels)) return blob;
+  return FindAbove(reader, seed, limits, noise, {0.75, 0.6, 0.9, 1.028}, pixels);
+}
+
+std::optional<DotBlob> DotBlobFinder::FindAbove(const PixelReader& reader, const DotSeed& seed,
+                                                const DotBlobLimits& limits,
+                                                const PixelNoise& noise, const Heights& heights,
+                                                DotPixels& pixels) {
   Eigen::Vector2i middle(seed.clearest.peak_x, seed.clearest.y);
-  double threshold = seed.clearest.surround + seed.clearest.contrast / 2;
+  double threshold = seed.clearest.surround + heights.border * seed.clearest.contrast;
   const auto reach_px = FindReach(reader, threshold, limits, middle);
   if (!reach_px) return std::nullopt;
   ReadPatch(reader, middle, static_cast<int>(std::ceil(*reach_px + MarginOf(*reach_px) + 2)));
   DotBlob blob;
   blob.start.background = MedianBeyond(middle, *reach_px + kEdge_px);
-  threshold = (reader.Value(middle.x(), middle.y()) + blob.start.background) / 2;
+  const double light = reader.Value(middle.x(), middle.y()) - blob.start.background;
+  threshold = blob.start.background + heights.border * light;
   if (!Grow(reader, middle, threshold)) return std::nullopt;
   const Moments moments = MeasureInside();
   if (moments.area_px2 < limits.min_area_px2 || moments.area_px2 > limits.max_area_px2)
@@ -125,7 +133,7 @@ std::optional<DotBlob> DotBlobFinder::Find(const PixelReader& reader, const DotS
   constexpr double kLeastFilled = 0.8;
   if (moments.area_px2 < kLeastFilled * filled_px2) return std::nullopt;
   if (RoundnessOf(moments.covariance_px2) < limits.min_roundness) return std::nullopt;
-  if (!HasEdge(moments, blob.start.background, threshold)) return std::nullopt;
+  if (!HasEdge(moments, blob.start.background, light, heights)) return std::nullopt;
   blob.shape_px2 = 4 * (moments.area_px2 / filled_px2) * moments.covariance_px2;
   blob.origin_px = moments.mean_px.array().round().matrix().cast<int>();
   const Eigen::Vector2d center = WeightedCenter(moments, blob.start.background);
@@ -293,11 +301,12 @@ double DotBlobFinder::MedianBeyond(const Eigen::Vector2i& middle, double radius_
   return *middle_value;
 }
 
-bool DotBlobFinder::HasEdge(const Moments& moments, double background, double half) const {
+bool DotBlobFinder::HasEdge(const Moments& moments, double background, double light,
+                            const Heights& heights) const {
   const float within =
       1 + static_cast<float>(2 * kEdge_px) / ShortestOf(4 * moments.covariance_px2);
-  const auto low = static_cast<float>((background + half) / 2);
-  const auto high = static_cast<float>(half + (half - background) / 2);
+  const auto low = static_cast<float>(background + heights.low * light);
+  const auto high = static_cast<float>(background + heights.high * light);
   int above_low = 0, above_high = 0;
   ForEachPixel(moments, [&](int index, float, float, float f2) {
     const float value = patch_.values[index];
@@ -305,9 +314,8 @@ bool DotBlobFinder::HasEdge(const Moments& moments, double background, double ha
     ++above_low;
     above_high += value > high;
   });
-  // Between the quarters of an edge there are 1.35 standard deviations of its blur.
-  const double blur_px =
-      (std::sqrt(above_low) - std::sqrt(above_high)) / std::sqrt(std::numbers::pi) / 1.35;
+  const double blur_px = (std::sqrt(above_low) - std::sqrt(above_high)) /
+                         std::sqrt(std::numbers::pi) / heights.apart_sigma;
   return blur_px <= LargestBlur(std::sqrt(moments.area_px2 / std::numbers::pi));
 }
 

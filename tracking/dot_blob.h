@@ -43,6 +43,9 @@ struct DotBlobLimits {
 // come out with 0.38 (a paraboloid) to 0.57 (a Gaussian) of their radius at half height.
 double LargestBlur(double radius_px);
 
+// The ellipse with its border moved outwards; exact for circles.
+Eigen::Matrix2d Grown(const Eigen::Matrix2d& shape_px2, double by_px);
+
 // The pixels of a dot, with what can be said of it before it is fitted. The origin of coordinates
 // is the middle of the pixel at `origin_px`.
 struct DotBlob {
@@ -62,7 +65,8 @@ struct DotBlob {
 };
 
 // Gathers the pixels around a seed that are above half of the way from what surrounds it to what it
-// has, and measures them. Keeps its scratch.
+// has, and measures them; where these are no round spot, as the ground is half as bright on one
+// side, those above three quarters. Keeps its scratch.
 class DotBlobFinder {
  public:
   // Nothing where this is no round spot. What the fit needs is put into `pixels`: the spot and a
@@ -72,6 +76,17 @@ class DotBlobFinder {
                               DotPixels& pixels);
 
  private:
+  // Parts of the way from what surrounds a dot to what it has.
+  struct Heights {
+    double border = 0.5;  // of what is the spot
+    double low = 0.25;    // between these an edge is as wide as
+    double high = 0.75;
+    double apart_sigma = 1.349;  // so many SD of its blur
+  };
+
+  std::optional<DotBlob> FindAbove(const PixelReader& reader, const DotSeed& seed,
+                                   const DotBlobLimits& limits, const PixelNoise& noise,
+                                   const Heights& heights, DotPixels& pixels);
   // A window of the picture, its values, and whether each pixel is of the spot.
   struct Patch {
     int left = 0, top = 0, width = 0, height = 0;
@@ -104,8 +119,9 @@ class DotBlobFinder {
   // use(index, dx, dy, f2): away from the mean, and f2 = 1 on the ellipse that the moments tell.
   template <class Use>
   void ForEachPixel(const Moments& moments, const Use& use) const;
-  // Whether the spot ends as a dot does, from the areas above the quarters of its height.
-  bool HasEdge(const Moments& moments, double background, double half) const;
+  // Whether the spot ends as a dot does, from the areas above two heights.
+  bool HasEdge(const Moments& moments, double background, double light,
+               const Heights& heights) const;
   // Of an ellipse the third moments are zero; of one with a side cut off they point away from it.
   std::optional<DotBlob::Cut> FindCut(const Moments& moments, const DotBlob& blob) const;
   Eigen::Vector2d WeightedCenter(const Moments& moments, double background) const;

@@ -25,9 +25,9 @@ PixelValues ValuesOf(const DotDetectorOptions& options) {
 
 // Of max_misfit: above kMostLeft nothing can be a dot, below kPlain it need not be asked whether
 // something is near, and below kClean not whether something hides a part.
-constexpr double kMostLeft = 4;
-constexpr double kPlain = 0.67;
-constexpr double kClean = 0.2;
+constexpr double kMostLeft = 5;
+constexpr double kPlain = 0.8;
+constexpr double kClean = 0.3;
 
 // The pixels of an image are not always square: lengths along x and y are divided by `scale`.
 DotBlobLimits LimitsOf(const DotDetectorOptions& options, const Eigen::Vector2d& scale,
@@ -144,6 +144,7 @@ class DotDetector::Implementation {
   SimdLevel simd_level() const { return scanner_.level(); }
 
  private:
+  // Of the values that dots are fitted to.
   PixelNoise Noise() {
     const double least = reader_.least_variance();
     PixelNoise noise;
@@ -151,12 +152,10 @@ class DotDetector::Implementation {
       reader_.SampleNoise(noise_samples_);
       noise = noise_samples_.Estimate(least);
     }
-    if (!options_.read_noise && !options_.noise_gain) return noise;
-    PixelNoise given = noise;
     if (options_.read_noise)
-      given.read_variance = *options_.read_noise * *options_.read_noise + least;
-    if (options_.noise_gain) given.gain = *options_.noise_gain;
-    return options_.polarity == DotPolarity::kDark ? given.Negative() : given;
+      noise.read_variance = *options_.read_noise * *options_.read_noise + least;
+    if (options_.noise_gain) noise.gain = *options_.noise_gain;
+    return options_.polarity == DotPolarity::kDark ? noise.Negative() : noise;
   }
 
   bool IsWanted(const Eigen::Vector2d& point_px) const {
@@ -205,7 +204,7 @@ class DotDetector::Implementation {
     ++report_.blobs;
     bool hidden = false;
     const auto fit = Fit(*blob, hidden);
-    if (fit && Confirms(*fit, *blob)) {
+    if (fit) {
       Dot dot = DotOf(*blob, *fit, picture_from_image);
       const Eigen::Vector2d size_px =
           Eigen::Vector2d(reader_.width(), reader_.height()).cwiseProduct(picture_from_image.scale);
@@ -216,28 +215,43 @@ class DotDetector::Implementation {
     return std::nullopt;
   }
 
-  static constexpr double kScale = 0.15;  // of the robust loss, part of the contrast
+  // What a dot leaves of a fit, within its edge.
+  bool Follows(const std::optional<DotFit>& fit, const DotBlob& blob, double part) const {
+    return fit && fit->left <= part * options_.max_misfit && Confirms(*fit, blob);
+  }
 
-  // Robustly where something seems to hide a part, or to be near.
+  // As if all were to be seen on even ground; else what explains it better: that a part is hidden,
+  // that the ground is uneven, or that something is near.
   std::optional<DotFit> Fit(const DotBlob& blob, bool& hidden) {
     hidden = false;
     const auto fit = fitter_.Fit(pixels_, blob.start, report_.noise);
     if (!fit || fit->left > kMostLeft * options_.max_misfit) return std::nullopt;
-    if (fit->left <= kClean * options_.max_misfit) return fit;
+    const bool follows = Follows(fit, blob, kPlain);
+    if (follows && fit->left_of_all <= kClean * options_.max_misfit) return fit;
     if (blob.cut)
-      if (const auto whole = FitWhole(blob); whole && whole->left < fit->left / 2) {
+      if (const auto whole = FitWhole(blob);
+          Follows(whole, blob, 1) && whole->left < fit->left / 2) {
         hidden = true;
         return whole;
       }
-    if (fit->left <= kPlain * options_.max_misfit) return fit;
+    if (follows || (fit && IsBall(fit->model) && Follows(fit, blob, 1))) return fit;
+    if (auto near = FitNear(blob); Follows(near, blob, 1)) return near;
+    constexpr double kScale = 0.15;  // of the robust loss, part of the contrast
     constexpr double kWidening = 6, kLeastHidden = 0.05, kMostHidden = 0.25;
-    const auto robust = fitter_.FitRobustly(pixels_, fit->model, report_.noise, kScale, kWidening);
-    if (robust && robust->disbelieved < kMostHidden &&
-        robust->left < kPlain * options_.max_misfit) {
+    auto robust = fitter_.FitRobustly(pixels_, fit->model, report_.noise, kScale, kWidening);
+    if (Follows(robust, blob, kPlain) && robust->disbelieved < kMostHidden) {
       hidden = robust->disbelieved > kLeastHidden;
       return robust;
     }
-    return fit->left <= options_.max_misfit ? fit : std::nullopt;
+    return Follows(fit, blob, 1) ? fit : std::nullopt;
+  }
+
+  // To the ground near the edge alone, where it is more even.
+  std::optional<DotFit> FitNear(const DotBlob& blob) {
+    constexpr double kNear_px = 2;
+    const Eigen::Matrix2d shape = Grown(blob.shape_px2, kNear_px);
+    rest_.CopyWithin(pixels_, blob.start.ellipse.center_px, shape.inverse().cast<float>());
+    return fitter_.Fit(rest_, blob.start, report_.noise, DotTerms::kUnevenGround);
   }
 
   // The disc that the blob may be the rest of.
@@ -245,17 +259,53 @@ class DotDetector::Implementation {
     DotModel start = blob.start;
     start.ellipse = blob.cut->whole;
     rest_.CopyBefore(pixels_, blob.cut->direction, blob.cut->limit_px);
-    return fitter_.Fit(rest_, start, report_.noise);
+    auto whole = fitter_.Fit(rest_, start, report_.noise);
+    // What is there says enough of what is not.
+    constexpr double kLeastThere = 0.55;
+    const double area = 1 / (whole ? whole->model.ellipse.xx * whole->model.ellipse.yy : 1);
+    if (std::sqrt(blob.shape_px2.determinant()) < kLeastThere * area) whole.reset();
+    return whole;
   }
 
   // Whether the fit is one of what was seen: where the edge is not round, contrast and blur may
-  // replace one another.
+  // replace one another, and where the ground is not even, the dot may spread over it.
   bool Confirms(const DotFit& fit, const DotBlob& blob) const {
-    const double part = fit.model.contrast / blob.start.contrast;
+    const DotModel& model = fit.model;
+    const double part = model.contrast / blob.start.contrast;
+    const double seen_px = std::pow(blob.shape_px2.determinant(), 0.25);
+    const bool is_ball = IsBall(model);
+    return part > (is_ball ? 0.4 : 0.7) && part < (blob.saturated ? 5 : 1.5) &&
+           model.ellipse.blur_px <= std::min(options_.max_blur_px, LargestBlur(seen_px) + 0.5) &&
+           (blob.cut || IsThere(model.ellipse, blob, is_ball ? 2.2 : 1.2, is_ball ? 1.2 : 0.25)) &&
+           HasEdgeAllAround(model);
+  }
+
+  static double RadiusOf(const DotEllipse& ellipse) {
+    return 1 / std::sqrt(ellipse.xx * ellipse.yy);
+  }
+
+  // Of a ball what is seen first is the part that the lamp shines on.
+  static bool IsBall(const DotModel& model) {
+    constexpr double kLeastShade = 0.5;
+    return model.shade.head<2>().norm() > kLeastShade * model.contrast;
+  }
+
+  // growth, move: in radii of what was seen.
+  static bool IsThere(const DotEllipse& ellipse, const DotBlob& blob, double growth, double move) {
+    constexpr double kRoom_px = 0.3;
     const double radius_px = std::pow(blob.shape_px2.determinant(), 0.25);
-    return part > 0.7 && part < (blob.saturated ? 2.5 : 1.5) &&
-           fit.model.ellipse.blur_px <=
-               std::min(options_.max_blur_px, LargestBlur(radius_px) + 0.5);
+    return RadiusOf(ellipse) <= growth * radius_px + kRoom_px &&
+           (ellipse.center_px - blob.start.ellipse.center_px).norm() <= move * radius_px + kRoom_px;
+  }
+
+  // The dark side of a ball may be as dark as the ground; but with few pixels a shade that takes
+  // the edge away turns glints into dots.
+  static bool HasEdgeAllAround(const DotModel& model) {
+    constexpr double kLeastAtEdge = 0.1, kLeastOfLarge = -0.7, kLarge_px = 3.5;
+    const double at_edge =
+        model.contrast - model.shade.head<2>().norm() - 2.0 / 3 * model.shade.z();
+    const double least = RadiusOf(model.ellipse) < kLarge_px ? kLeastAtEdge : kLeastOfLarge;
+    return at_edge >= least * model.contrast;
   }
 
   bool IsDot(const Dot& dot) const {

@@ -8,29 +8,50 @@
 namespace articap {
 namespace {
 
-enum Parameter { kX, kY, kXx, kXy, kYy, kBlur, kContrast, kBackground, kSlopeX, kSlopeY };
+// The first of each kind; slope, bend and shade are two, two and three.
+enum Parameter {
+  kX,
+  kY,
+  kXx,
+  kXy,
+  kYy,
+  kBlur,
+  kContrast,
+  kBackground,
+  kSlope,
+  kBend = kSlope + 2,
+  kShade = kBend + 2,
+  kShadeOfHeight = kShade + 2
+};
 
 // A pixel's own square has an SD of 1/sqrt(12) px, which no lens undercuts.
 constexpr double kLeastBlur_px = 0.289;
 constexpr int kMostSteps = 8;
 constexpr int kMostRobustSteps = 2;  // at each width of the loss
 
-using Parameters = Eigen::Matrix<double, 10, 1>;
+constexpr int kNum = DotEquations::kNumParameters;
+using Parameters = Eigen::Matrix<double, kNum, 1>;
+using Normal = DotEquations::Normal;
+// Of some of the parameters.
+using SomeByAll = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kNum, kNum>;
+using Some = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kNum, 1>;
 
 Parameters Pack(const DotModel& model) {
   const DotEllipse& dot = model.ellipse;
   Parameters at;
   at << dot.center_px.cast<double>(), dot.xx, dot.xy, dot.yy, dot.blur_px, model.contrast,
-      model.background, model.slope_per_px;
+      model.background, model.slope_per_px, model.bend_per_px2, model.shade;
   return at;
 }
 
 DotModel Unpack(const Parameters& at) {
-  const Eigen::Matrix<float, 10, 1> values = at.cast<float>();
+  const Eigen::Matrix<float, kNum, 1> values = at.cast<float>();
   return {{values.head<2>(), values[kXx], values[kXy], values[kYy], values[kBlur]},
           at[kContrast],
           at[kBackground],
-          at.tail<2>()};
+          at.segment<2>(kSlope),
+          at.segment<2>(kBend),
+          at.segment<3>(kShade)};
 }
 
 // Steps that would leave what a dot can be end at its border.
@@ -43,94 +64,114 @@ void KeepPossible(double largest_px, Parameters& at) {
   at[kY] = std::clamp(at[kY], -largest_px, largest_px);
 }
 
-// By how much chi^2 would fall if the parameters behind the first `held_from` were free too.
-double GainOfFreeing(const Eigen::Matrix<double, 11, 11>& normal, int held_from) {
-  const int added = 10 - held_from;
-  const Eigen::MatrixXd across = normal.block(0, held_from, held_from, added);
-  const Eigen::MatrixXd schur =
+// By how much chi^2 would fall if the parameters from `held_from` up to `end` were free too.
+double GainOfFreeing(const Normal& normal, int held_from, int end) {
+  const int added = end - held_from;
+  const SomeByAll across = normal.block(0, held_from, held_from, added);
+  const SomeByAll schur =
       normal.block(held_from, held_from, added, added) -
-      across.transpose() * normal.topLeftCorner(held_from, held_from).ldlt().solve(across);
-  const Eigen::VectorXd gradient = normal.col(10).segment(held_from, added);
+      across.transpose() *
+          SomeByAll(normal.topLeftCorner(held_from, held_from)).ldlt().solve(across);
+  const Some gradient = normal.col(kNum).segment(held_from, added);
   return gradient.dot(schur.ldlt().solve(gradient));
 }
 
-Eigen::VectorXd DampedStep(const Eigen::Matrix<double, 11, 11>& normal, int free, double damping) {
-  Eigen::MatrixXd damped = normal.topLeftCorner(free, free);
+Some DampedStep(const Normal& normal, int free, double damping) {
+  SomeByAll damped = normal.topLeftCorner(free, free);
   damped.diagonal() *= 1 + damping;
   damped.diagonal().array() += 1e-12 * damped.diagonal().maxCoeff();
-  return damped.ldlt().solve(normal.col(10).head(free));
+  return damped.ldlt().solve(Some(normal.col(kNum).head(free)));
 }
 
 // What the equations will be after a small step.
-void Advance(const Eigen::VectorXd& step, Eigen::Matrix<double, 11, 11>& normal) {
-  const auto gradient = normal.col(10).head(step.size());
-  const double fall = step.dot(gradient);
-  normal.col(10).head<10>() -= normal.topLeftCorner(10, step.size()) * step;
-  normal(10, 10) -= fall;
+void Advance(const Some& step, Normal& normal) {
+  const double fall = step.dot(normal.col(kNum).head(step.size()));
+  normal.col(kNum).head<kNum>() -= normal.topLeftCorner(kNum, step.size()) * step;
+  normal(kNum, kNum) -= fall;
 }
 
 }  // namespace
 
 std::optional<DotFit> DotFitter::Fit(const DotPixels& pixels, const DotModel& start,
-                                     const PixelNoise& noise) {
-  pixels_ = &pixels;
-  noise_ = noise;
-  largest_px_ = std::sqrt(pixels.count());
-  steps_ = 0;
-  Parameters at = Pack(start);
-  Normal normal;
-  const int free = MinimiseAll(Weights::kByModel, at, normal);
-  return Conclude(at, normal, free);
+                                     const PixelNoise& noise, DotTerms terms) {
+  State state;
+  Start(pixels, start, noise, state);
+  if (terms == DotTerms::kUnevenGround) state.free = kShade;
+  Minimise(Weights::kByModel, kMostSteps, state);
+  if (terms == DotTerms::kSupported) Extend(kMostSteps, state);
+  return Conclude(state);
 }
 
 std::optional<DotFit> DotFitter::FitRobustly(const DotPixels& pixels, const DotModel& start,
                                              const PixelNoise& noise, double scale,
                                              double widening) {
-  pixels_ = &pixels;
-  noise_ = noise;
-  largest_px_ = std::sqrt(pixels.count());
-  steps_ = 0;
-  Parameters at = Pack(start);
-  Normal normal;
-  int free = kWithoutSlope;
+  State state;
+  Start(pixels, start, noise, state);
   constexpr int kPasses = 5;
   for (int pass = 0; pass < kPasses; ++pass, widening = std::max(1.0, widening / 2)) {
-    At(at, Weights::kByLoss, widening * scale * at[kContrast]);
-    free = MinimiseAll(Weights::kKept, at, normal);
+    Evaluate(Weights::kByLoss, state, widening * scale * state.at[kContrast]);
+    Minimise(Weights::kKept, kMostRobustSteps, state);
+    Extend(kMostRobustSteps, state);
   }
-  std::optional<DotFit> fit = Conclude(at, normal, free);
+  std::optional<DotFit> fit = Conclude(state);
   if (fit) fit->disbelieved = equations_.disbelieved();
   return fit;
 }
 
-DotFitter::Normal DotFitter::At(const Parameters& parameters, Weights weights, double scale) {
-  return equations_.At(*pixels_, Unpack(parameters), noise_, weights, scale);
+void DotFitter::Start(const DotPixels& pixels, const DotModel& start, const PixelNoise& noise,
+                      State& state) {
+  pixels_ = &pixels;
+  noise_ = noise;
+  largest_px_ = std::sqrt(pixels.count());
+  steps_ = 0;
+  state.at = Pack(start);
+  state.free = !start.shade.isZero(0)          ? kNumParameters
+               : !start.bend_per_px2.isZero(0) ? kShade
+               : !start.slope_per_px.isZero(0) ? kBend
+                                               : kEven;
 }
 
-DotFitter::Normal DotFitter::Minimise(int free, Weights weights, Parameters& at) {
-  Normal normal = At(at, weights);
+void DotFitter::Evaluate(Weights weights, State& state, double scale) {
+  const auto terms = state.free == kEven ? DotEquations::Terms::kEven : DotEquations::Terms::kAll;
+  state.normal = equations_.At(*pixels_, Unpack(state.at), noise_, terms, weights, scale);
+  state.own = equations_.own();
+  // Where the range cuts the dot off, blur, contrast and size may replace one another: what is
+  // usual decides.
+  if (pixels_->num_saturated() == 0) return;
+  constexpr double kUsualBlur_px = 0.75, kBlurSigma_px = 0.1;
+  const double misfit = std::max(1.0, state.normal(kNum, kNum) / pixels_->count());
+  const double information = misfit / (kBlurSigma_px * kBlurSigma_px);
+  const double apart = kUsualBlur_px - state.at[kBlur];
+  state.normal(kBlur, kBlur) += information;
+  state.normal(kBlur, kNum) += information * apart;
+  state.normal(kNum, kBlur) += information * apart;
+  state.normal(kNum, kNum) += information * apart * apart;
+}
+
+void DotFitter::Minimise(Weights weights, int most_steps, State& state) {
+  Evaluate(weights, state);
   bool weighs = weights == Weights::kByModel;
-  const int most_steps = weighs ? kMostSteps : kMostRobustSteps;
   double damping = 1e-3;
+  State next;
   for (int tried = 0; tried < most_steps; ++tried, ++steps_) {
-    const Eigen::VectorXd step = DampedStep(normal, free, damping);
-    Parameters next = at;
-    next.head(free) += step;
-    KeepPossible(largest_px_, next);
-    const double chi2 = normal(kNumParameters, kNumParameters);
+    const Some step = DampedStep(state.normal, state.free, damping);
+    next.at = state.at;
+    next.free = state.free;
+    next.at.head(state.free) += step;
+    KeepPossible(largest_px_, next.at);
+    const double chi2 = state.normal(kNum, kNum);
     // In units of the standard deviations that the misfit makes likely.
     constexpr double kArrived2 = 0.02;
-    const double moved2 = step.dot(normal.topLeftCorner(free, free) * step);
+    const double moved2 = step.dot(state.normal.topLeftCorner(state.free, state.free) * step);
     if (!(moved2 > kArrived2 * std::max(1.0, chi2 / pixels_->count()))) {
-      at = next;
-      Advance(step, normal);
+      state.at = next.at;
+      Advance(step, state.normal);
       break;
     }
-    const Normal at_next = At(next, weighs ? Weights::kByModel : Weights::kKept);
+    Evaluate(weighs ? Weights::kByModel : Weights::kKept, next);
     // Other weights change chi^2 a little.
-    if (at_next(kNumParameters, kNumParameters) <= (weighs ? 1.5 : 1.0) * chi2) {
-      at = next;
-      normal = at_next;
+    if (next.normal(kNum, kNum) <= (weighs ? 1.5 : 1.0) * chi2) {
+      state = next;
       damping *= 0.1;
       weighs = false;
     } else {
@@ -138,33 +179,65 @@ DotFitter::Normal DotFitter::Minimise(int free, Weights weights, Parameters& at)
       if (damping > 1e8) break;
     }
   }
-  return normal;
 }
 
-int DotFitter::MinimiseAll(Weights weights, Parameters& at, Normal& normal) {
-  const int free = at.tail<2>().isZero(0) ? kWithoutSlope : kNumParameters;
-  normal = Minimise(free, weights, at);
-  if (free == kNumParameters) return free;
-  constexpr double kSupported = 12;
-  const double misfit = normal(kNumParameters, kNumParameters) / pixels_->count();
-  if (GainOfFreeing(normal, kWithoutSlope) <= kSupported * std::max(1.0, misfit)) return free;
-  normal = Minimise(kNumParameters, Weights::kKept, at);
-  return kNumParameters;
+void DotFitter::Extend(int most_steps, State& state) {
+  if (state.free >= kShadeOfHeight) return;
+  State more = state;
+  more.free = kNumParameters;
+  Evaluate(Weights::kKept, more);
+  more.free = SupportedBy(more, state.free);
+  if (more.free == state.free) return;
+  const State even = more;
+  Minimise(Weights::kByModel, most_steps, more);
+  // Nothing is darker in its middle.
+  if (more.at[kShadeOfHeight] < 0) {
+    more = even;
+    more.free = kShadeOfHeight;
+    Minimise(Weights::kByModel, most_steps, more);
+  }
+  state = more;
 }
 
-std::optional<DotFit> DotFitter::Conclude(const Parameters& at, const Normal& normal,
-                                          int free) const {
-  const int freedom = pixels_->count() - free;
-  if (freedom < 1 || !at.allFinite() || at[kContrast] <= 0) return std::nullopt;
+int DotFitter::SupportedBy(const State& all, int free) const {
+  // What chi^2 falls by, in misfits.
+  constexpr double kSlopeSupported = 12, kBendSupported = 16, kShadeSupported = 20;
+  constexpr double kMostSaturated = 0.3;
+  const double misfit =
+      std::max({1.0, all.normal(kNum, kNum) / pixels_->count(), all.own.chi2 / all.own.count});
+  const auto gain = [&](int end) {
+    return free < end ? GainOfFreeing(all.normal, free, end) / misfit : 0.0;
+  };
+  const double slope = gain(kBend), bend = gain(kShade);
+  if (pixels_->num_saturated() <= kMostSaturated * all.own.count &&
+      gain(kNumParameters) - bend > kShadeSupported)
+    return kNumParameters;
+  if (bend - slope > kBendSupported) return kShade;
+  return slope > kSlopeSupported ? kBend : free;
+}
+
+std::optional<DotFit> DotFitter::Conclude(const State& state) const {
+  const int freedom = pixels_->count() - state.free;
+  const double contrast = state.at[kContrast];
+  if (freedom < 1 || !state.at.allFinite() || contrast <= 0) return std::nullopt;
   DotFit fit;
-  fit.model = Unpack(at);
+  fit.model = Unpack(state.at);
   fit.steps = steps_;
-  fit.misfit = normal(kNumParameters, kNumParameters) / freedom;
-  const double unexplained = std::max(0.0, fit.misfit - 1) * freedom;
-  fit.left = std::sqrt(unexplained / normal(kBackground, kBackground)) / at[kContrast];
-  const Eigen::MatrixXd covariance =
-      normal.topLeftCorner(free, free).ldlt().solve(Eigen::MatrixXd::Identity(free, 2));
-  fit.covariance_px2 = std::max(1.0, fit.misfit) * covariance.topRows<2>();
+  const double chi2 = state.normal(kNum, kNum);
+  fit.misfit = chi2 / freedom;
+  // Of the dot's own pixels, which tell where it is: where dots alone are bright, the picture tells
+  // little of the noise that bright pixels have.
+  const double own_misfit = state.own.chi2 / state.own.count * pixels_->count() / freedom;
+  const auto left = [&](double sum, double count, double weight) {
+    return std::sqrt(std::max(0.0, sum - count) / weight) / contrast;
+  };
+  fit.left = left(state.own.chi2, state.own.count, state.own.weight);
+  fit.left_of_all = left(chi2, freedom, state.normal(kBackground, kBackground));
+  const Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kNum, 2> covariance =
+      SomeByAll(state.normal.topLeftCorner(state.free, state.free))
+          .ldlt()
+          .solve(SomeByAll(SomeByAll::Identity(state.free, 2)));
+  fit.covariance_px2 = std::max({1.0, fit.misfit, own_misfit}) * covariance.topRows<2>();
   if (!fit.covariance_px2.allFinite() || fit.covariance_px2.diagonal().minCoeff() <= 0)
     return std::nullopt;
   return fit;

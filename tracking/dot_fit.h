@@ -13,28 +13,40 @@ struct DotFit {
   DotModel model;
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();  // of the centre
   double misfit = 1;  // mean square of the residuals over their variances
-  double left = 0;    // root mean square of what the noise does not explain, over the contrast
+  // Root mean square of what the noise does not explain, over the contrast: of the pixels within
+  // the edge and within its blur, and of all.
+  double left = 0;
+  double left_of_all = 0;
   // The part of the pixels within the edge, and within its blur, that the robust fit does not
   // believe, 0 to 1.
   double disbelieved = 0;
   int steps = 0;
 };
 
+// What is fitted besides an even dot on even ground.
+enum class DotTerms : std::uint8_t {
+  kSupported,  // the ground's slope, its bend and the dot's shade as far as the pixels support it
+  kUnevenGround,  // slope and bend, but no shade
+};
+
 // The maximum-likelihood fit of a blurred ellipse: weighted least squares by Levenberg's and
 // Marquardt's method, from a start that is right to about a tenth of the diameter. Weights are the
 // inverse variances at the model's values after the first step, so that noise does not choose its
-// own weight. The background's slope is fitted where that lowers chi^2 by more than 12, as it costs
-// up to a tenth of the centre's accuracy. Saturated pixels pull only while the model is below them.
+// own weight. The background's slope, its bend, and the dot's own shade, each with those before it,
+// are fitted where that lowers chi^2 by more than 12, 16 and 20 times the misfit, as they cost up
+// to a tenth, and the shade a third, of the centre's accuracy. Saturated pixels pull only while the
+// model is below them; a dot of which they are more than three tenths has no shade that could be
+// told.
 //
 // The covariance is the inverse of the Fisher information with all other parameters free, times the
-// misfit where that is above 1. Nothing where no ellipse comes out. One object a thread: it keeps
-// its scratch.
+// misfit, of all pixels or of the dot's own, where that is above 1. Nothing where no ellipse comes
+// out. One object a thread: it keeps its scratch.
 class DotFitter {
  public:
   explicit DotFitter(SimdLevel level = BestSimdLevel()) : equations_(level) {}
 
-  std::optional<DotFit> Fit(const DotPixels& pixels, const DotModel& start,
-                            const PixelNoise& noise);
+  std::optional<DotFit> Fit(const DotPixels& pixels, const DotModel& start, const PixelNoise& noise,
+                            DotTerms terms = DotTerms::kSupported);
 
   // The same from a fit, while pixels that do not follow the model count for less and less (Geman
   // and McClure's loss): for dots of which something is hidden. Residuals of `scale`, a part of the
@@ -45,17 +57,25 @@ class DotFitter {
 
  private:
   static constexpr int kNumParameters = DotEquations::kNumParameters;
-  static constexpr int kWithoutSlope = 8;
+  static constexpr int kEven = DotEquations::kNumEven;
   using Parameters = Eigen::Matrix<double, kNumParameters, 1>;
-  using Normal = DotEquations::Normal;
   using Weights = DotEquations::Weights;
+  struct State {
+    Parameters at;
+    int free = kEven;  // so many of the parameters, the others being zero
+    DotEquations::Normal normal;
+    DotEquations::Own own;
+  };
 
-  Normal At(const Parameters& parameters, Weights weights, double scale = 1);
-  // Over the first `free` parameters. kByModel: weights are of the model after the first step.
-  Normal Minimise(int free, Weights weights, Parameters& at);
-  // Adds the slope where it is there; returns how many parameters are free.
-  int MinimiseAll(Weights weights, Parameters& at, Normal& normal);
-  std::optional<DotFit> Conclude(const Parameters& at, const Normal& normal, int free) const;
+  void Start(const DotPixels& pixels, const DotModel& start, const PixelNoise& noise, State& state);
+  void Evaluate(Weights weights, State& state, double scale = 1);
+  // kByModel: weights are of the model after the first step.
+  void Minimise(Weights weights, int most_steps, State& state);
+  // Frees slope, bend and shade as far as the pixels support them.
+  void Extend(int most_steps, State& state);
+  // How many parameters that is.
+  int SupportedBy(const State& all, int free) const;
+  std::optional<DotFit> Conclude(const State& state) const;
 
   DotEquations equations_;
   const DotPixels* pixels_ = nullptr;  // during a fit

@@ -2,6 +2,7 @@
 #include "tracking/pixel_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -139,15 +140,23 @@ template void PixelReader::ReadRow(int y, std::uint16_t* row) const;
 
 void PixelReader::SampleNoise(NoiseSamples& samples) const {
   samples.Clear();
-  constexpr int kRows = 24, kColumns = 256;
+  constexpr int kRows = 24, kColumns = 24, kLength = NoiseSamples::kLength;
+  const int length = std::min(kLength, image_.width);
+  if (length < 3) return;
   const int step_y = std::max(1, image_.height / kRows);
-  const int step_x = std::max(1, image_.width / kColumns);
+  const int step_x = std::max(length, image_.width / kColumns);
+  std::array<float, kLength> values;
   for (int y = step_y / 2; y < image_.height; y += step_y)
-    for (int x = 1 + step_x / 2; x + 1 < image_.width; x += step_x) {
-      const float left = Value(x - 1, y), middle = Value(x, y), right = Value(x + 1, y);
+    for (int x = 0; x + length <= image_.width; x += step_x) {
+      ReadValues(x, y, length, values.data());
       // At the ends of the range values do not scatter.
-      const auto [least, most] = std::minmax({left, middle, right});
-      if (least > 1 - kSaturation && most < kSaturation) samples.Add(left, middle, right);
+      const auto at_ends = std::count_if(values.begin(), values.begin() + length, [](float value) {
+        return value <= 1 - kSaturation || value >= kSaturation;
+      });
+      if (10 * at_ends > length) continue;
+      if (values_.dark_dots)
+        for (float& value : values) value = 1 - value;
+      samples.Add(values.data(), length);
     }
 }
 

@@ -46,7 +46,7 @@ class PixelReader {
   void ReadRow(int y, Integer* row) const;
   bool is_16_bit() const { return image_.format == PixelFormat::kGray16; }
 
-  // Of some thousand pixels, evenly spread.
+  // The light of some hundred rows of pixels, evenly spread: dark dots are dark here.
   void SampleNoise(NoiseSamples& samples) const;
 
  private:

@@ -51,7 +51,7 @@ struct Condition {
   const char* name;
   void (*set)(DotTrial& trial);
   // Mean square of the errors over the stated covariances.
-  double least_sigma = 0.8, most_sigma = 1.4;
+  double least_sigma = 0.8, most_sigma = 1.15;
 };
 
 void PrintTo(const Condition& condition, std::ostream* stream) { *stream << condition.name; }
