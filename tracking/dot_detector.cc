@@ -234,7 +234,9 @@ class DotDetector::Implementation {
         hidden = true;
         return whole;
       }
-    if (follows || (fit && IsBall(fit->model) && Follows(fit, blob, 1))) return fit;
+    if (follows) return fit;
+    // The lit part of a ball would pass for a dot beside its middle.
+    if (IsBall(fit->model)) return Follows(fit, blob, 1) ? fit : std::nullopt;
     if (auto near = FitNear(blob); Follows(near, blob, 1)) return near;
     constexpr double kScale = 0.15;  // of the robust loss, part of the contrast
     constexpr double kWidening = 6, kLeastHidden = 0.05, kMostHidden = 0.25;
@@ -287,7 +289,7 @@ class DotDetector::Implementation {
   // Of a ball what is seen first is the part that the lamp shines on.
   static bool IsBall(const DotModel& model) {
     constexpr double kLeastShade = 0.5;
-    return model.shade.head<2>().norm() > kLeastShade * model.contrast;
+    return model.shade.norm() > kLeastShade * model.contrast;
   }
 
   // growth, move: in radii of what was seen.

@@ -200,7 +200,8 @@ void DotFitter::Extend(int most_steps, State& state) {
 }
 
 int DotFitter::SupportedBy(const State& all, int free) const {
-  // What chi^2 falls by, in misfits.
+  // What chi^2 falls by, in misfits; for the shade, whose ellipse is still that of the lit part, in
+  // roots of them.
   constexpr double kSlopeSupported = 12, kBendSupported = 16, kShadeSupported = 20;
   constexpr double kMostSaturated = 0.3;
   const double misfit =
@@ -210,7 +211,7 @@ int DotFitter::SupportedBy(const State& all, int free) const {
   };
   const double slope = gain(kBend), bend = gain(kShade);
   if (pixels_->num_saturated() <= kMostSaturated * all.own.count &&
-      gain(kNumParameters) - bend > kShadeSupported)
+      gain(kNumParameters) - bend > kShadeSupported / std::sqrt(misfit))
     return kNumParameters;
   if (bend - slope > kBendSupported) return kShade;
   return slope > kSlopeSupported ? kBend : free;
