@@ -34,19 +34,6 @@ double MarginOf(double radius_px) {
   return std::max(3.0, 0.35 * radius_px) + kEdge_px * kUsualBlur_px;
 }
 
-// Eight directions, all around with their opposites.
-const std::array<Eigen::Vector2d, 8>& HalfOfDirections() {
-  static const std::array<Eigen::Vector2d, 8> directions = [] {
-    std::array<Eigen::Vector2d, 8> all;
-    for (int i = 0; i < 8; ++i) {
-      const double angle = std::numbers::pi * i / 8;
-      all[i] = {std::cos(angle), std::sin(angle)};
-    }
-    return all;
-  }();
-  return directions;
-}
-
 DotEllipse EllipseOf(const Eigen::Vector2d& center_px, const Eigen::Matrix2d& shape_px2) {
   const Eigen::Matrix2d inverse = shape_px2.inverse();
   const double xx = std::sqrt(inverse(0, 0)), xy = inverse(0, 1) / xx;
@@ -163,7 +150,7 @@ std::optional<DotBlob> DotBlobFinder::FindAbove(const PixelReader& reader, const
 
 std::optional<double> DotBlobFinder::FindReach(const PixelReader& reader, double threshold,
                                                const DotBlobLimits& limits,
-                                               Eigen::Vector2i& middle) const {
+                                               Eigen::Vector2i& middle) {
   const Eigen::Vector2i size(reader.width(), reader.height());
   const int most = static_cast<int>(limits.largest_px) + 2;
   const auto is_above = [&](const Eigen::Vector2i& at) {
@@ -180,25 +167,32 @@ std::optional<double> DotBlobFinder::FindReach(const PixelReader& reader, double
       if (high[axis] - low[axis] > most) return std::nullopt;
       middle[axis] = (low[axis] + high[axis]) / 2;
     }
+  SetWaysOut(most + 1);
   double shortest = most, longest = 0;
-  for (const Eigen::Vector2d& direction : HalfOfDirections()) {
-    const auto reach_along = [&](double sign) {
-      int steps = 0;
-      while (
-          steps <= most &&
-          is_above(middle + (sign * (steps + 1) * direction).array().round().matrix().cast<int>()))
-        ++steps;
-      return steps;
-    };
-    const int forth = reach_along(1), back = reach_along(-1);
+  for (int direction = 0; direction < kDirections; ++direction) {
+    const Eigen::Vector2i* const way = &ways_out_[direction * (most + 1)];
+    int forth = 0, back = 0;
+    while (forth <= most && is_above(middle + way[forth])) ++forth;
+    while (back <= most && is_above(middle - way[back])) ++back;
     const int across = forth + back + 1;
     // A part of the dot may be hidden.
     if (std::abs(forth - back) > 2 + 0.3 * across || across > most) return std::nullopt;
     shortest = std::min<double>(shortest, across);
     longest = std::max<double>(longest, across);
+    if (shortest + 1 < limits.min_roundness * (longest - 1)) return std::nullopt;
   }
-  if (shortest + 1 < limits.min_roundness * (longest - 1)) return std::nullopt;
   return longest / 2;
+}
+
+void DotBlobFinder::SetWaysOut(int length) {
+  if (ways_out_.size() == static_cast<std::size_t>(kDirections * length)) return;
+  ways_out_.clear();
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = std::numbers::pi * i / kDirections;
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    for (int step = 1; step <= length; ++step)
+      ways_out_.push_back((step * direction).array().round().matrix().cast<int>());
+  }
 }
 
 void DotBlobFinder::ReadPatch(const PixelReader& reader, const Eigen::Vector2i& middle, int reach) {
@@ -215,11 +209,16 @@ void DotBlobFinder::ReadPatch(const PixelReader& reader, const Eigen::Vector2i& 
 bool DotBlobFinder::Grow(const PixelReader& reader, const Eigen::Vector2i& from, double threshold) {
   const int right = patch_.left + patch_.width - 1, bottom = patch_.top + patch_.height - 1;
   patch_.inside.assign(patch_.values.size(), 0);
+  patch_.begin = {patch_.width, patch_.height};
+  patch_.end = {0, 0};
   open_.clear();
   const auto try_at = [&](int x, int y) {
     const int index = patch_.Index(x, y);
     if (patch_.inside[index] != 0 || !(patch_.values[index] > threshold)) return;
     patch_.inside[index] = 1;
+    const Eigen::Vector2i at(x - patch_.left, y - patch_.top);
+    patch_.begin = patch_.begin.cwiseMin(at);
+    patch_.end = patch_.end.cwiseMax(at + Eigen::Vector2i::Ones());
     open_.emplace_back(x, y);
   };
   try_at(from.x(), from.y());
@@ -240,21 +239,30 @@ bool DotBlobFinder::Grow(const PixelReader& reader, const Eigen::Vector2i& from,
 }
 
 DotBlobFinder::Moments DotBlobFinder::MeasureInside() const {
-  double count = 0;
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
-  for (int y = 0; y < patch_.height; ++y)
-    for (int x = 0; x < patch_.width; ++x)
-      if (patch_.inside[y * patch_.width + x] != 0) {
-        const Eigen::Vector2d at(x, y);
-        count += 1;
-        sum += at;
-        squares += at * at.transpose();
-      }
+  // Whole numbers: exact.
+  long count = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0, sum_yy = 0;
+  for (int y = patch_.begin.y(); y < patch_.end.y(); ++y) {
+    long in_row = 0, row_x = 0;
+    for (int x = patch_.begin.x(); x < patch_.end.x(); ++x) {
+      const long inside = patch_.inside[y * patch_.width + x];
+      in_row += inside;
+      row_x += inside * x;
+      sum_xx += inside * x * x;
+    }
+    count += in_row;
+    sum_x += row_x;
+    sum_y += in_row * y;
+    sum_xy += row_x * y;
+    sum_yy += in_row * y * y;
+  }
   if (count == 0) return {};
-  const Eigen::Vector2d mean = sum / count;
-  return {count, mean + Eigen::Vector2d(patch_.left, patch_.top),
-          squares / count - mean * mean.transpose() + Eigen::Matrix2d::Identity() / 12};
+  const auto total = static_cast<double>(count);
+  const auto part = [&](long sum) { return static_cast<double>(sum) / total; };
+  const Eigen::Vector2d mean(part(sum_x), part(sum_y));
+  Eigen::Matrix2d squares;
+  squares << part(sum_xx), part(sum_xy), part(sum_xy), part(sum_yy);
+  return {total, mean + Eigen::Vector2d(patch_.left, patch_.top),
+          squares - mean * mean.transpose() + Eigen::Matrix2d::Identity() / 12};
 }
 
 template <class Use>
@@ -262,10 +270,15 @@ void DotBlobFinder::ForEachPixel(const Moments& moments, const Use& use) const {
   const Eigen::Matrix2f inverse = (4 * moments.covariance_px2).inverse().cast<float>();
   const auto mean_x = static_cast<float>(moments.mean_px.x() - patch_.left);
   const auto mean_y = static_cast<float>(moments.mean_px.y() - patch_.top);
-  int index = 0;
-  for (int y = 0; y < patch_.height; ++y) {
+  // Edges, and some more, around what is inside.
+  constexpr int kAround = static_cast<int>(2 * kEdge_px) + 1;
+  const int left = std::max(0, patch_.begin.x() - kAround);
+  const int right = std::min(patch_.width, patch_.end.x() + kAround);
+  const int bottom = std::min(patch_.height, patch_.end.y() + kAround);
+  for (int y = std::max(0, patch_.begin.y() - kAround); y < bottom; ++y) {
     const float dy = static_cast<float>(y) - mean_y;
-    for (int x = 0; x < patch_.width; ++x, ++index) {
+    int index = y * patch_.width + left;
+    for (int x = left; x < right; ++x, ++index) {
       const float dx = static_cast<float>(x) - mean_x;
       use(index, dx, dy,
           inverse(0, 0) * dx * dx + 2 * inverse(0, 1) * dx * dy + inverse(1, 1) * dy * dy);
@@ -289,9 +302,9 @@ bool DotBlobFinder::IsEllipse(const Moments& moments) const {
 double DotBlobFinder::MedianBeyond(const Eigen::Vector2i& middle, double radius_px) {
   outside_.clear();
   const auto radius2 = static_cast<int>(radius_px * radius_px);
-  // Every second pixel tells enough.
+  // Every fifth pixel, of other columns from row to row, tells enough.
   for (int y = 0; y < patch_.height; ++y)
-    for (int x = y % 2; x < patch_.width; x += 2) {
+    for (int x = 2 * y % 5; x < patch_.width; x += 5) {
       const int dx = x + patch_.left - middle.x(), dy = y + patch_.top - middle.y();
       if (dx * dx + dy * dy > radius2) outside_.push_back(patch_.values[y * patch_.width + x]);
     }
@@ -388,7 +401,9 @@ void DotBlobFinder::GatherPixels(const PixelReader& reader, const DotBlob& blob,
       const float dx = at_x - center.x(), dy = at_y - center.y();
       if (form(window, dx, dy) > 1) continue;
       const float value = patch_.values[y * patch_.width + x];
-      if (std::abs(value - background) > foreign && form(own, dx, dy) > 1) continue;
+      // Of the ground every second pixel tells enough.
+      const bool is_ground = form(own, dx, dy) > 1;
+      if (is_ground && ((x + y) % 2 != 0 || std::abs(value - background) > foreign)) continue;
       pixels.Add(at_x, at_y, value, reader.IsSaturated(x + patch_.left, y + patch_.top));
     }
   pixels.Finish();

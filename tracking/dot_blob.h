@@ -92,6 +92,7 @@ class DotBlobFinder {
     int left = 0, top = 0, width = 0, height = 0;
     std::vector<float> values;
     std::vector<std::uint8_t> inside;
+    Eigen::Vector2i begin, end;  // the box around these, from the patch's corner; the end excluded
 
     int Index(int x, int y) const { return (y - top) * width + x - left; }
   };
@@ -106,7 +107,8 @@ class DotBlobFinder {
   // nothing where that differs too much from direction to direction for a dot. Most candidates are
   // none, and end here.
   std::optional<double> FindReach(const PixelReader& reader, double threshold,
-                                  const DotBlobLimits& limits, Eigen::Vector2i& middle) const;
+                                  const DotBlobLimits& limits, Eigen::Vector2i& middle);
+  void SetWaysOut(int length);
   void ReadPatch(const PixelReader& reader, const Eigen::Vector2i& middle, int reach);
   // Marks what hangs together with a pixel above the threshold. False where it reaches the patch's
   // border within the picture.
@@ -128,7 +130,11 @@ class DotBlobFinder {
   void GatherPixels(const PixelReader& reader, const DotBlob& blob, const PixelNoise& noise,
                     DotPixels& pixels) const;
 
+  static constexpr int kDirections = 8;
+
   Patch patch_;
+  // The pixels on the way outwards in eight directions, which with their opposites go all around.
+  std::vector<Eigen::Vector2i> ways_out_;
   std::vector<Eigen::Vector2i> open_;
   std::vector<float> outside_;
 };

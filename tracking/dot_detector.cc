@@ -25,8 +25,9 @@ PixelValues ValuesOf(const DotDetectorOptions& options) {
 
 // Of max_misfit: above kMostLeft nothing can be a dot, below kPlain it need not be asked whether
 // something is near, and below kClean not whether something hides a part.
-constexpr double kMostLeft = 5;
+constexpr double kMostLeft = 3;
 constexpr double kPlain = 0.8;
+constexpr double kUncut = 0.5;
 constexpr double kClean = 0.3;
 
 // The pixels of an image are not always square: lengths along x and y are divided by `scale`.
@@ -224,11 +225,12 @@ class DotDetector::Implementation {
   // that the ground is uneven, or that something is near.
   std::optional<DotFit> Fit(const DotBlob& blob, bool& hidden) {
     hidden = false;
-    const auto fit = fitter_.Fit(pixels_, blob.start, report_.noise);
-    if (!fit || fit->left > kMostLeft * options_.max_misfit) return std::nullopt;
+    const auto fit = fitter_.Fit(pixels_, blob.start, report_.noise, DotTerms::kSupported,
+                                 kMostLeft * options_.max_misfit);
+    if (!fit) return std::nullopt;
     const bool follows = Follows(fit, blob, kPlain);
     if (follows && fit->left_of_all <= kClean * options_.max_misfit) return fit;
-    if (blob.cut)
+    if (blob.cut && fit->left > kUncut * options_.max_misfit)
       if (const auto whole = FitWhole(blob);
           Follows(whole, blob, 1) && whole->left < fit->left / 2) {
         hidden = true;

@@ -64,23 +64,16 @@ void KeepPossible(double largest_px, Parameters& at) {
   at[kY] = std::clamp(at[kY], -largest_px, largest_px);
 }
 
-// By how much chi^2 would fall if the parameters from `held_from` up to `end` were free too.
-double GainOfFreeing(const Normal& normal, int held_from, int end) {
-  const int added = end - held_from;
-  const SomeByAll across = normal.block(0, held_from, held_from, added);
-  const SomeByAll schur =
-      normal.block(held_from, held_from, added, added) -
-      across.transpose() *
-          SomeByAll(normal.topLeftCorner(held_from, held_from)).ldlt().solve(across);
-  const Some gradient = normal.col(kNum).segment(held_from, added);
-  return gradient.dot(schur.ldlt().solve(gradient));
-}
-
 Some DampedStep(const Normal& normal, int free, double damping) {
   SomeByAll damped = normal.topLeftCorner(free, free);
   damped.diagonal() *= 1 + damping;
   damped.diagonal().array() += 1e-12 * damped.diagonal().maxCoeff();
-  return damped.ldlt().solve(Some(normal.col(kNum).head(free)));
+  return damped.llt().solve(Some(normal.col(kNum).head(free)));
+}
+
+// Root mean square of what the noise does not explain, over the contrast.
+double LeftOf(const DotEquations::Own& own, double contrast) {
+  return std::sqrt(std::max(0.0, own.chi2 - own.count) / own.weight) / contrast;
 }
 
 // What the equations will be after a small step.
@@ -93,11 +86,12 @@ void Advance(const Some& step, Normal& normal) {
 }  // namespace
 
 std::optional<DotFit> DotFitter::Fit(const DotPixels& pixels, const DotModel& start,
-                                     const PixelNoise& noise, DotTerms terms) {
+                                     const PixelNoise& noise, DotTerms terms, double most_left) {
   State state;
   Start(pixels, start, noise, state);
   if (terms == DotTerms::kUnevenGround) state.free = kShade;
   Minimise(Weights::kByModel, kMostSteps, state);
+  if (!(LeftOf(state.own, state.at[kContrast]) <= most_left)) return std::nullopt;
   if (terms == DotTerms::kSupported) Extend(kMostSteps, state);
   return Conclude(state);
 }
@@ -151,7 +145,7 @@ void DotFitter::Evaluate(Weights weights, State& state, double scale) {
 void DotFitter::Minimise(Weights weights, int most_steps, State& state) {
   Evaluate(weights, state);
   bool weighs = weights == Weights::kByModel;
-  double damping = 1e-3;
+  double damping = state.free > kShade ? 1e-2 : 1e-3;
   State next;
   for (int tried = 0; tried < most_steps; ++tried, ++steps_) {
     const Some step = DampedStep(state.normal, state.free, damping);
@@ -161,7 +155,7 @@ void DotFitter::Minimise(Weights weights, int most_steps, State& state) {
     KeepPossible(largest_px_, next.at);
     const double chi2 = state.normal(kNum, kNum);
     // In units of the standard deviations that the misfit makes likely.
-    constexpr double kArrived2 = 0.02;
+    constexpr double kArrived2 = 0.5;
     const double moved2 = step.dot(state.normal.topLeftCorner(state.free, state.free) * step);
     if (!(moved2 > kArrived2 * std::max(1.0, chi2 / pixels_->count()))) {
       state.at = next.at;
@@ -175,7 +169,7 @@ void DotFitter::Minimise(Weights weights, int most_steps, State& state) {
       damping *= 0.1;
       weighs = false;
     } else {
-      damping *= 10;
+      damping = std::max(10 * damping, 0.01);
       if (damping > 1e8) break;
     }
   }
@@ -190,7 +184,6 @@ void DotFitter::Extend(int most_steps, State& state) {
   if (more.free == state.free) return;
   const State even = more;
   Minimise(Weights::kByModel, most_steps, more);
-  // Nothing is darker in its middle.
   if (more.at[kShadeOfHeight] < 0) {
     more = even;
     more.free = kShadeOfHeight;
@@ -206,15 +199,23 @@ int DotFitter::SupportedBy(const State& all, int free) const {
   constexpr double kMostSaturated = 0.3;
   const double misfit =
       std::max({1.0, all.normal(kNum, kNum) / pixels_->count(), all.own.chi2 / all.own.count});
-  const auto gain = [&](int end) {
-    return free < end ? GainOfFreeing(all.normal, free, end) / misfit : 0.0;
+  // With J^T W J = L L^T, each parameter that is freed after those before it lowers chi^2 by the
+  // square of its component of L^-1 J^T W r.
+  const Eigen::LLT<Eigen::Matrix<double, kNum, kNum>> triangle(
+      all.normal.topLeftCorner<kNum, kNum>());
+  if (triangle.info() != Eigen::Success) return free;
+  const Parameters falls = triangle.matrixL().solve(all.normal.col(kNum).head<kNum>());
+  const auto gain = [&](int begin, int end) {
+    begin = std::max(begin, free);
+    return begin < end ? falls.segment(begin, end - begin).squaredNorm() / misfit : 0.0;
   };
-  const double slope = gain(kBend), bend = gain(kShade);
+  // Nothing is darker in its middle.
+  const int with_shade = falls[kShadeOfHeight] > 0 ? kNum : kShadeOfHeight;
   if (pixels_->num_saturated() <= kMostSaturated * all.own.count &&
-      gain(kNumParameters) - bend > kShadeSupported / std::sqrt(misfit))
-    return kNumParameters;
-  if (bend - slope > kBendSupported) return kShade;
-  return slope > kSlopeSupported ? kBend : free;
+      gain(kShade, with_shade) > kShadeSupported / std::sqrt(misfit))
+    return with_shade;
+  if (gain(kBend, kShade) > kBendSupported) return kShade;
+  return gain(kSlope, kBend) > kSlopeSupported ? kBend : free;
 }
 
 std::optional<DotFit> DotFitter::Conclude(const State& state) const {
@@ -229,14 +230,12 @@ std::optional<DotFit> DotFitter::Conclude(const State& state) const {
   // Of the dot's own pixels, which tell where it is: where dots alone are bright, the picture tells
   // little of the noise that bright pixels have.
   const double own_misfit = state.own.chi2 / state.own.count * pixels_->count() / freedom;
-  const auto left = [&](double sum, double count, double weight) {
-    return std::sqrt(std::max(0.0, sum - count) / weight) / contrast;
-  };
-  fit.left = left(state.own.chi2, state.own.count, state.own.weight);
-  fit.left_of_all = left(chi2, freedom, state.normal(kBackground, kBackground));
+  fit.left = LeftOf(state.own, contrast);
+  fit.left_of_all = LeftOf(
+      {static_cast<double>(freedom), state.normal(kBackground, kBackground), chi2}, contrast);
   const Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kNum, 2> covariance =
       SomeByAll(state.normal.topLeftCorner(state.free, state.free))
-          .ldlt()
+          .llt()
           .solve(SomeByAll(SomeByAll::Identity(state.free, 2)));
   fit.covariance_px2 = std::max({1.0, fit.misfit, own_misfit}) * covariance.topRows<2>();
   if (!fit.covariance_px2.allFinite() || fit.covariance_px2.diagonal().minCoeff() <= 0)

@@ -45,8 +45,9 @@ class DotFitter {
  public:
   explicit DotFitter(SimdLevel level = BestSimdLevel()) : equations_(level) {}
 
+  // Nothing too where an even dot leaves more than most_left (DotFit::left).
   std::optional<DotFit> Fit(const DotPixels& pixels, const DotModel& start, const PixelNoise& noise,
-                            DotTerms terms = DotTerms::kSupported);
+                            DotTerms terms = DotTerms::kSupported, double most_left = 1);
 
   // The same from a fit, while pixels that do not follow the model count for less and less (Geman
   // and McClure's loss): for dots of which something is hidden. Residuals of `scale`, a part of the

@@ -81,18 +81,10 @@ void PixelReader::SetTables() {
   }
 }
 
-float PixelReader::Value(int x, int y) const {
-  switch (image_.format) {
-    case PixelFormat::kGray8:
-      return gray_[image_.row(y)[x]];
-    case PixelFormat::kGray16:
-      return gray_[Code16(image_, x, y)];
-    case PixelFormat::kRgb8: {
-      const std::uint8_t* rgb = Rgb(image_, x, y);
-      return color_[0][rgb[0]] + color_[1][rgb[1]] + color_[2][rgb[2]];
-    }
-  }
-  return 0;
+float PixelReader::ValueOfOthers(int x, int y) const {
+  if (is_16_bit()) return gray_[Code16(image_, x, y)];
+  const std::uint8_t* rgb = Rgb(image_, x, y);
+  return color_[0][rgb[0]] + color_[1][rgb[1]] + color_[2][rgb[2]];
 }
 
 void PixelReader::ReadValues(int x, int y, int count, float* values) const {

@@ -32,7 +32,9 @@ class PixelReader {
 
   int width() const { return image_.width; }
   int height() const { return image_.height; }
-  float Value(int x, int y) const;
+  float Value(int x, int y) const {
+    return image_.format == PixelFormat::kGray8 ? gray_[image_.row(y)[x]] : ValueOfOthers(x, y);
+  }
   // Of pixels side by side.
   void ReadValues(int x, int y, int count, float* values) const;
   // Whether the light may be more than the value.
@@ -50,6 +52,7 @@ class PixelReader {
   void SampleNoise(NoiseSamples& samples) const;
 
  private:
+  float ValueOfOthers(int x, int y) const;  // than kGray8
   void SetColorWeights();
   void SetTables();
   float Linear(double code) const;
