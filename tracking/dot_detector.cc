@@ -119,6 +119,9 @@ class DotDetector::Implementation {
     std::vector<Dot> dots;
     known_.clear();
     for (const DotSeed& seed : seeds_) {
+      // What it stands out from by the rows that were read may be more than what surrounds it.
+      constexpr double kLeastSeen = 0.75;
+      if (seed.clearest.contrast < kLeastSeen * limits.least_contrast) break;
       if (static_cast<int>(dots.size()) == options_.most_dots) {
         report_.too_many = true;
         break;
