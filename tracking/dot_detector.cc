@@ -23,9 +23,11 @@ PixelValues ValuesOf(const DotDetectorOptions& options) {
   return {options.polarity == DotPolarity::kDark, options.tone == DotTone::kSrgb, *color};
 }
 
-// Of max_misfit: above kMostLeft nothing can be a dot, below kPlain it need not be asked whether
-// something is near, and below kClean not whether something hides a part.
+// Of max_misfit: above kMostLeft nothing can be a dot, and above kMostHiding nothing that hides a
+// part of it makes it one; below kPlain it need not be asked whether something is near, below
+// kUncut not whether a side is cut off, and below kClean nothing.
 constexpr double kMostLeft = 3;
+constexpr double kMostHiding = 1.5;
 constexpr double kPlain = 0.8;
 constexpr double kUncut = 0.5;
 constexpr double kClean = 0.3;
@@ -243,6 +245,7 @@ class DotDetector::Implementation {
     // The lit part of a ball would pass for a dot beside its middle.
     if (IsBall(fit->model)) return Follows(fit, blob, 1) ? fit : std::nullopt;
     if (auto near = FitNear(blob); Follows(near, blob, 1)) return near;
+    if (fit->left > kMostHiding * options_.max_misfit) return std::nullopt;
     constexpr double kScale = 0.15;  // of the robust loss, part of the contrast
     constexpr double kWidening = 6, kLeastHidden = 0.05, kMostHidden = 0.25;
     auto robust = fitter_.FitRobustly(pixels_, fit->model, report_.noise, kScale, kWidening);

@@ -165,12 +165,16 @@ void DotFitter::Minimise(Weights weights, int most_steps, State& state) {
     Evaluate(weighs ? Weights::kByModel : Weights::kKept, next);
     // Other weights change chi^2 a little.
     if (next.normal(kNum, kNum) <= (weighs ? 1.5 : 1.0) * chi2) {
+      // What is far from the model by other things than noise is not worth small steps.
+      constexpr double kWorthwhile = 0.005, kFar = 2;
+      const bool is_worthwhile = weighs || next.normal(kNum, kNum) < (1 - kWorthwhile) * chi2 ||
+                                 chi2 < kFar * pixels_->count();
       state = next;
+      if (!is_worthwhile) break;
       damping *= 0.1;
       weighs = false;
     } else {
       damping = std::max(10 * damping, 0.01);
-      if (damping > 1e8) break;
     }
   }
 }
