@@ -185,7 +185,7 @@ std::optional<double> DotBlobFinder::FindReach(const PixelReader& reader, double
 }
 
 void DotBlobFinder::SetWaysOut(int length) {
-  if (ways_out_.size() == static_cast<std::size_t>(kDirections * length)) return;
+  if (ways_out_.size() == static_cast<std::size_t>(length) * kDirections) return;
   ways_out_.clear();
   for (int i = 0; i < kDirections; ++i) {
     const double angle = std::numbers::pi * i / kDirections;

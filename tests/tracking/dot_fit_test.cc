@@ -146,8 +146,10 @@ TEST(PixelNoiseTest, IsToldFromAPicture) {
   LightPicture light(640, 480);
   // Steps of brightness, with texture in a third of it.
   for (int y = 0; y < light.height; ++y)
-    for (int x = 0; x < light.width; ++x)
-      light.at(x, y) = 0.05 + 0.1 * (x / 64) * 0.9 + (y >= 320 ? 0.03 * ((x / 2 + y / 3) % 2) : 0);
+    for (int x = 0; x < light.width; ++x) {
+      const int step = x / 64;
+      light.at(x, y) = 0.05 + 0.09 * step + (y >= 320 ? 0.03 * ((x / 2 + y / 3) % 2) : 0);
+    }
   const Image image = TakePicture(light, sensor, random);
   PixelReader reader({});
   reader.Open(image.view());
