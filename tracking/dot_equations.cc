@@ -11,12 +11,12 @@
 namespace articap {
 namespace {
 
-// Products go by threes: eight columns of the Jacobian and one of the residuals, or fifteen, one,
-// and two empty ones.
+// Products go by threes: eight columns of the Jacobian and one of the residuals, or fifteen and one
+// that is left over.
 constexpr int kBlock = 3;
 constexpr int kEvenColumns = DotEquations::kNumEven + 1;
-constexpr int kAllColumns = DotEquations::kNumParameters + 3;
-static_assert(kEvenColumns % kBlock == 0 && kAllColumns % kBlock == 0);
+constexpr int kAllColumns = DotEquations::kNumParameters + 1;
+static_assert(kEvenColumns % kBlock == 0 && kAllColumns % kBlock == 1);
 
 struct Task {
   int count = 0;  // a multiple of kLanes
