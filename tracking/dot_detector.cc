@@ -24,12 +24,11 @@ PixelValues ValuesOf(const DotDetectorOptions& options) {
 }
 
 // Of max_misfit: above kMostLeft nothing can be a dot, and above kMostHiding nothing that hides a
-// part of it makes it one; below kPlain it need not be asked whether something is near, below
-// kUncut not whether a side is cut off, and below kClean nothing.
+// part of it makes it one; below kPlain it need not be asked whether something is near, and below
+// kClean nothing.
 constexpr double kMostLeft = 3;
 constexpr double kMostHiding = 1.5;
 constexpr double kPlain = 0.8;
-constexpr double kUncut = 0.5;
 constexpr double kClean = 0.3;
 
 // The pixels of an image are not always square: lengths along x and y are divided by `scale`.
@@ -226,34 +225,61 @@ class DotDetector::Implementation {
     return fit && fit->left <= part * options_.max_misfit && Confirms(*fit, blob);
   }
 
-  // As if all were to be seen on even ground; else what explains it better: that a part is hidden,
-  // that the ground is uneven, or that something is near.
+  // As if all were to be seen, evenly lit; else what explains it better: that a part is hidden,
+  // that it is a ball in the light of a lamp, that the ground is uneven, or that something is near.
   std::optional<DotFit> Fit(const DotBlob& blob, bool& hidden) {
     hidden = false;
-    const auto fit = fitter_.Fit(pixels_, blob.start, report_.noise, DotTerms::kSupported,
-                                 kMostLeft * options_.max_misfit);
-    if (!fit) return std::nullopt;
-    const bool follows = Follows(fit, blob, kPlain);
-    if (follows && fit->left_of_all <= kClean * options_.max_misfit) return fit;
-    if (blob.cut && fit->left > kUncut * options_.max_misfit)
+    const auto even = fitter_.Fit(pixels_, blob.start, report_.noise, DotGround::kSupported,
+                                  kMostLeft * options_.max_misfit);
+    if (!even) return std::nullopt;
+    const bool follows = Follows(even, blob, kPlain);
+    const double clean = kClean * options_.max_misfit;
+    if (follows && std::max(even->left, even->left_of_all) <= clean) return even;
+    // With a side cut off the even ellipse, and the shaded one too, would lie beside the middle.
+    constexpr double kCutExplains = 0.5;
+    if (blob.cut)
       if (const auto whole = FitWhole(blob);
-          Follows(whole, blob, 1) && whole->left < fit->left / 2) {
+          Follows(whole, blob, 1) && whole->left < kCutExplains * even->left) {
         hidden = true;
         return whole;
       }
-    if (follows) return fit;
-    // The lit part of a ball would pass for a dot beside its middle.
-    if (IsBall(fit->model)) return Follows(fit, blob, 1) ? fit : std::nullopt;
+    Eigen::Vector2d doubt_px = Eigen::Vector2d::Zero();
+    if (even->left > clean) {
+      const auto shaded = fitter_.FitShaded(pixels_, even->model, report_.noise);
+      constexpr double kShadeExplains = 0.75;
+      if (shaded && shaded->misfit < kShadeExplains * even->misfit) {
+        if (Follows(shaded, blob, 1)) return shaded;
+        doubt_px = DoubtOf(*even, *shaded);
+      }
+    }
+    auto found = follows ? even : FitBeside(blob, *even, hidden);
+    if (found) found->covariance_px2 += doubt_px * doubt_px.transpose();
+    return found;
+  }
+
+  // How far aside the middle of a dot may be where a shade would explain it better, but hardly can
+  // be.
+  static Eigen::Vector2d DoubtOf(const DotFit& even, const DotFit& shaded) {
+    const Eigen::Vector2d aside_px =
+        (shaded.model.ellipse.center_px - even.model.ellipse.center_px).cast<double>();
+    return aside_px / std::max(1.0, aside_px.norm() / RadiusOf(even.model.ellipse));
+  }
+
+  std::optional<DotFit> FitBeside(const DotBlob& blob, const DotFit& even, bool& hidden) {
     if (auto near = FitNear(blob); Follows(near, blob, 1)) return near;
-    if (fit->left > kMostHiding * options_.max_misfit) return std::nullopt;
+    if (auto robust = FitHidden(blob, even, hidden)) return robust;
+    return Follows(even, blob, 1) ? std::optional(even) : std::nullopt;
+  }
+
+  // Without what is not the dot's.
+  std::optional<DotFit> FitHidden(const DotBlob& blob, const DotFit& even, bool& hidden) {
+    if (even.left > kMostHiding * options_.max_misfit) return std::nullopt;
     constexpr double kScale = 0.15;  // of the robust loss, part of the contrast
     constexpr double kWidening = 6, kLeastHidden = 0.05, kMostHidden = 0.25;
-    auto robust = fitter_.FitRobustly(pixels_, fit->model, report_.noise, kScale, kWidening);
-    if (Follows(robust, blob, kPlain) && robust->disbelieved < kMostHidden) {
-      hidden = robust->disbelieved > kLeastHidden;
-      return robust;
-    }
-    return Follows(fit, blob, 1) ? fit : std::nullopt;
+    auto robust = fitter_.FitRobustly(pixels_, even.model, report_.noise, kScale, kWidening);
+    if (!Follows(robust, blob, kPlain) || robust->disbelieved >= kMostHidden) return std::nullopt;
+    hidden = robust->disbelieved > kLeastHidden;
+    return robust;
   }
 
   // To the ground near the edge alone, where it is more even.
@@ -261,7 +287,7 @@ class DotDetector::Implementation {
     constexpr double kNear_px = 2;
     const Eigen::Matrix2d shape = Grown(blob.shape_px2, kNear_px);
     rest_.CopyWithin(pixels_, blob.start.ellipse.center_px, shape.inverse().cast<float>());
-    return fitter_.Fit(rest_, blob.start, report_.noise, DotTerms::kUnevenGround);
+    return fitter_.Fit(rest_, blob.start, report_.noise, DotGround::kUneven);
   }
 
   // The disc that the blob may be the rest of.
@@ -271,7 +297,7 @@ class DotDetector::Implementation {
     rest_.CopyBefore(pixels_, blob.cut->direction, blob.cut->limit_px);
     auto whole = fitter_.Fit(rest_, start, report_.noise);
     // What is there says enough of what is not.
-    constexpr double kLeastThere = 0.55;
+    constexpr double kLeastThere = 0.4;
     const double area = 1 / (whole ? whole->model.ellipse.xx * whole->model.ellipse.yy : 1);
     if (std::sqrt(blob.shape_px2.determinant()) < kLeastThere * area) whole.reset();
     return whole;

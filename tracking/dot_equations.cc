@@ -11,12 +11,14 @@
 namespace articap {
 namespace {
 
-// Products go by threes: eight columns of the Jacobian and one of the residuals, or fifteen and one
-// that is left over.
+// Products go by threes: eight columns of the Jacobian and one of the residuals, or twelve or
+// fifteen and one that is left over.
 constexpr int kBlock = 3;
 constexpr int kEvenColumns = DotEquations::kNumEven + 1;
+constexpr int kGroundColumns = DotEquations::kNumGround + 1;
 constexpr int kAllColumns = DotEquations::kNumParameters + 1;
-static_assert(kEvenColumns % kBlock == 0 && kAllColumns % kBlock == 1);
+static_assert(kEvenColumns % kBlock == 0 && kGroundColumns % kBlock == 1 &&
+              kAllColumns % kBlock == 1);
 
 struct Task {
   int count = 0;  // a multiple of kLanes
@@ -150,11 +152,16 @@ DotEquations::Normal DotEquations::At(const DotPixels& pixels, const DotModel& m
   task.inverse_scale = static_cast<float>(1 / scale);
   task.weights = weights;
   Sums sums;
-  const int num_columns = terms == Terms::kEven ? kNumEven : kNumParameters;
-  if (terms == Terms::kEven)
+  int num_columns = kNumParameters;
+  if (terms == Terms::kEven) {
+    num_columns = kNumEven;
     Run<kEvenColumns>(level_, task, sums);
-  else
+  } else if (terms == Terms::kGround) {
+    num_columns = kNumGround;
+    Run<kGroundColumns>(level_, task, sums);
+  } else {
     Run<kAllColumns>(level_, task, sums);
+  }
   own_ = {sums.count, sums.weight, sums.chi2};
   if (weights == Weights::kByLoss)
     disbelieved_ = sums.count > 0 ? 1 - sums.believed / sums.count : 1;

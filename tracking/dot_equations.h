@@ -65,7 +65,8 @@ struct DotModel {
 // contrast, background, slope x, y, bend 1, 2, shade x, y, h, and of the residuals.
 class DotEquations {
  public:
-  static constexpr int kNumEven = 8;  // the parameters of an even dot on even ground
+  static constexpr int kNumEven = 8;     // the parameters of an even dot on even ground
+  static constexpr int kNumGround = 12;  // on ground with slope and bend
   static constexpr int kNumParameters = 15;
   // J^T W J, J^T W r and r^T W r, J being the Jacobian and r what is measured less the model.
   using Normal = Eigen::Matrix<double, kNumParameters + 1, kNumParameters + 1>;
@@ -78,7 +79,8 @@ class DotEquations {
 
   // Which rows and columns are worked out; the others are zero.
   enum class Terms : std::uint8_t {
-    kEven,  // of the first kNumEven parameters, and only where the others are zero
+    kEven,    // of the first kNumEven parameters, and only where the others are zero
+    kGround,  // of the first kNumGround, likewise
     kAll,
   };
 

@@ -71,9 +71,15 @@ Some DampedStep(const Normal& normal, int free, double damping) {
   return damped.llt().solve(Some(normal.col(kNum).head(free)));
 }
 
+// What chi^2 is by noise alone a pixel, as the variances have more in them.
+double ExpectedOf(const DotEquations::Own& own, double model_variance) {
+  return 1 - model_variance * own.weight / own.count;
+}
+
 // Root mean square of what the noise does not explain, over the contrast.
-double LeftOf(const DotEquations::Own& own, double contrast) {
-  return std::sqrt(std::max(0.0, own.chi2 - own.count) / own.weight) / contrast;
+double LeftOf(const DotEquations::Own& own, double model_variance, double contrast) {
+  const double expected = own.count * ExpectedOf(own, model_variance);
+  return std::sqrt(std::max(0.0, own.chi2 - expected) / own.weight) / contrast;
 }
 
 // What the equations will be after a small step.
@@ -86,13 +92,31 @@ void Advance(const Some& step, Normal& normal) {
 }  // namespace
 
 std::optional<DotFit> DotFitter::Fit(const DotPixels& pixels, const DotModel& start,
-                                     const PixelNoise& noise, DotTerms terms, double most_left) {
+                                     const PixelNoise& noise, DotGround ground, double most_left) {
   State state;
   Start(pixels, start, noise, state);
-  if (terms == DotTerms::kUnevenGround) state.free = kShade;
+  if (ground == DotGround::kUneven) state.free = kShade;
   Minimise(Weights::kByModel, kMostSteps, state);
-  if (!(LeftOf(state.own, state.at[kContrast]) <= most_left)) return std::nullopt;
-  if (terms == DotTerms::kSupported) Extend(kMostSteps, state);
+  if (!(LeftOf(state.own, model_variance_, state.at[kContrast]) <= most_left)) return std::nullopt;
+  Extend(kMostSteps, state);
+  return Conclude(state);
+}
+
+std::optional<DotFit> DotFitter::FitShaded(const DotPixels& pixels, const DotModel& start,
+                                           const PixelNoise& noise) {
+  State state;
+  Start(pixels, start, noise, state);
+  state.free = kNum;
+  const State even = state;
+  Minimise(Weights::kByModel, kMostSteps, state);
+  constexpr double kMostSaturated = 0.3;
+  if (pixels.num_saturated() > kMostSaturated * state.own.count) return std::nullopt;
+  // Nothing is darker in its middle.
+  if (state.at[kShadeOfHeight] < 0) {
+    state = even;
+    state.free = kShadeOfHeight;
+    Minimise(Weights::kByModel, kMostSteps, state);
+  }
   return Conclude(state);
 }
 
@@ -116,6 +140,11 @@ void DotFitter::Start(const DotPixels& pixels, const DotModel& start, const Pixe
                       State& state) {
   pixels_ = &pixels;
   noise_ = noise;
+  // What the profile itself may be off (dot_profile.h): where there is little noise, the foot of
+  // the edge must not decide alone.
+  constexpr double kProfileError = 0.004;
+  model_variance_ = std::pow(kProfileError * start.contrast, 2);
+  noise_.read_variance += model_variance_;
   largest_px_ = std::sqrt(pixels.count());
   steps_ = 0;
   state.at = Pack(start);
@@ -126,7 +155,9 @@ void DotFitter::Start(const DotPixels& pixels, const DotModel& start, const Pixe
 }
 
 void DotFitter::Evaluate(Weights weights, State& state, double scale) {
-  const auto terms = state.free == kEven ? DotEquations::Terms::kEven : DotEquations::Terms::kAll;
+  const auto terms = state.free == kEven    ? DotEquations::Terms::kEven
+                     : state.free <= kShade ? DotEquations::Terms::kGround
+                                            : DotEquations::Terms::kAll;
   state.normal = equations_.At(*pixels_, Unpack(state.at), noise_, terms, weights, scale);
   state.own = equations_.own();
   // Where the range cuts the dot off, blur, contrast and size may replace one another: what is
@@ -180,44 +211,32 @@ void DotFitter::Minimise(Weights weights, int most_steps, State& state) {
 }
 
 void DotFitter::Extend(int most_steps, State& state) {
-  if (state.free >= kShadeOfHeight) return;
+  if (state.free >= kShade) return;
   State more = state;
-  more.free = kNumParameters;
+  more.free = kShade;
   Evaluate(Weights::kKept, more);
   more.free = SupportedBy(more, state.free);
   if (more.free == state.free) return;
-  const State even = more;
   Minimise(Weights::kByModel, most_steps, more);
-  if (more.at[kShadeOfHeight] < 0) {
-    more = even;
-    more.free = kShadeOfHeight;
-    Minimise(Weights::kByModel, most_steps, more);
-  }
   state = more;
 }
 
 int DotFitter::SupportedBy(const State& all, int free) const {
-  // What chi^2 falls by, in misfits; for the shade, whose ellipse is still that of the lit part, in
-  // roots of them.
-  constexpr double kSlopeSupported = 12, kBendSupported = 16, kShadeSupported = 20;
-  constexpr double kMostSaturated = 0.3;
+  // What chi^2 falls by, in misfits.
+  constexpr double kSlopeSupported = 12, kBendSupported = 16;
   const double misfit =
       std::max({1.0, all.normal(kNum, kNum) / pixels_->count(), all.own.chi2 / all.own.count});
   // With J^T W J = L L^T, each parameter that is freed after those before it lowers chi^2 by the
   // square of its component of L^-1 J^T W r.
-  const Eigen::LLT<Eigen::Matrix<double, kNum, kNum>> triangle(
-      all.normal.topLeftCorner<kNum, kNum>());
+  const Eigen::LLT<Eigen::Matrix<double, kShade, kShade>> triangle(
+      all.normal.topLeftCorner<kShade, kShade>());
   if (triangle.info() != Eigen::Success) return free;
-  const Parameters falls = triangle.matrixL().solve(all.normal.col(kNum).head<kNum>());
+  const Eigen::Matrix<double, kShade, 1> falls =
+      triangle.matrixL().solve(all.normal.col(kNum).head<kShade>());
   const auto gain = [&](int begin, int end) {
     begin = std::max(begin, free);
     return begin < end ? falls.segment(begin, end - begin).squaredNorm() / misfit : 0.0;
   };
-  // Nothing is darker in its middle.
-  const int with_shade = falls[kShadeOfHeight] > 0 ? kNum : kShadeOfHeight;
-  if (pixels_->num_saturated() <= kMostSaturated * all.own.count &&
-      gain(kShade, with_shade) > kShadeSupported / std::sqrt(misfit))
-    return with_shade;
   if (gain(kBend, kShade) > kBendSupported) return kShade;
   return gain(kSlope, kBend) > kSlopeSupported ? kBend : free;
 }
@@ -230,18 +249,20 @@ std::optional<DotFit> DotFitter::Conclude(const State& state) const {
   fit.model = Unpack(state.at);
   fit.steps = steps_;
   const double chi2 = state.normal(kNum, kNum);
-  fit.misfit = chi2 / freedom;
-  // Of the dot's own pixels, which tell where it is: where dots alone are bright, the picture tells
-  // little of the noise that bright pixels have.
-  const double own_misfit = state.own.chi2 / state.own.count * pixels_->count() / freedom;
-  fit.left = LeftOf(state.own, contrast);
-  fit.left_of_all = LeftOf(
-      {static_cast<double>(freedom), state.normal(kBackground, kBackground), chi2}, contrast);
+  // Of all pixels, and of the dot's own, which tell where it is: where dots alone are bright, the
+  // picture tells little of the noise that bright pixels have.
+  const double count = pixels_->count(), per_freedom = count / freedom;
+  const DotEquations::Own all = {count, state.normal(kBackground, kBackground), chi2 * per_freedom};
+  fit.left = LeftOf(state.own, model_variance_, contrast);
+  fit.left_of_all = LeftOf(all, model_variance_, contrast);
+  fit.misfit = all.chi2 / count / ExpectedOf(all, model_variance_);
+  const double scatter = std::max({ExpectedOf(state.own, model_variance_), all.chi2 / count,
+                                   state.own.chi2 / state.own.count * per_freedom});
   const Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kNum, 2> covariance =
       SomeByAll(state.normal.topLeftCorner(state.free, state.free))
           .llt()
           .solve(SomeByAll(SomeByAll::Identity(state.free, 2)));
-  fit.covariance_px2 = std::max({1.0, fit.misfit, own_misfit}) * covariance.topRows<2>();
+  fit.covariance_px2 = scatter * covariance.topRows<2>();
   if (!fit.covariance_px2.allFinite() || fit.covariance_px2.diagonal().minCoeff() <= 0)
     return std::nullopt;
   return fit;

@@ -23,20 +23,18 @@ struct DotFit {
   int steps = 0;
 };
 
-// What is fitted besides an even dot on even ground.
-enum class DotTerms : std::uint8_t {
-  kSupported,  // the ground's slope, its bend and the dot's shade as far as the pixels support it
-  kUnevenGround,  // slope and bend, but no shade
+enum class DotGround : std::uint8_t {
+  kSupported,  // its slope and bend as far as the pixels support them
+  kUneven,     // with both
 };
 
 // The maximum-likelihood fit of a blurred ellipse: weighted least squares by Levenberg's and
 // Marquardt's method, from a start that is right to about a tenth of the diameter. Weights are the
 // inverse variances at the model's values after the first step, so that noise does not choose its
-// own weight. The background's slope, its bend, and the dot's own shade, each with those before it,
-// are fitted where that lowers chi^2 by more than 12, 16 and 20 times the misfit, as they cost up
-// to a tenth, and the shade a third, of the centre's accuracy. Saturated pixels pull only while the
-// model is below them; a dot of which they are more than three tenths has no shade that could be
-// told.
+// own weight; what the profile may be off is part of the variance. The background's slope, and its
+// bend with it, are fitted where that lowers chi^2 by more than 12 and 16 times the misfit, as they
+// cost up to a tenth of the centre's accuracy. Saturated pixels pull only while the model is below
+// them.
 //
 // The covariance is the inverse of the Fisher information with all other parameters free, times the
 // misfit, of all pixels or of the dot's own, where that is above 1. Nothing where no ellipse comes
@@ -45,9 +43,15 @@ class DotFitter {
  public:
   explicit DotFitter(SimdLevel level = BestSimdLevel()) : equations_(level) {}
 
-  // Nothing too where an even dot leaves more than most_left (DotFit::left).
+  // An even dot. Nothing too where it leaves more than most_left (DotFit::left).
   std::optional<DotFit> Fit(const DotPixels& pixels, const DotModel& start, const PixelNoise& noise,
-                            DotTerms terms = DotTerms::kSupported, double most_left = 1);
+                            DotGround ground = DotGround::kSupported, double most_left = 1);
+
+  // From the fit of an even dot on, with the dot's own shade, which costs a third of the centre's
+  // accuracy. Nothing too where more than three tenths of the dot's pixels are saturated, as these
+  // tell no shade.
+  std::optional<DotFit> FitShaded(const DotPixels& pixels, const DotModel& start,
+                                  const PixelNoise& noise);
 
   // The same from a fit, while pixels that do not follow the model count for less and less (Geman
   // and McClure's loss): for dots of which something is hidden. Residuals of `scale`, a part of the
@@ -72,7 +76,7 @@ class DotFitter {
   void Evaluate(Weights weights, State& state, double scale = 1);
   // kByModel: weights are of the model after the first step.
   void Minimise(Weights weights, int most_steps, State& state);
-  // Frees slope, bend and shade as far as the pixels support them.
+  // Frees slope and bend as far as the pixels support them.
   void Extend(int most_steps, State& state);
   // How many parameters that is.
   int SupportedBy(const State& all, int free) const;
@@ -80,8 +84,9 @@ class DotFitter {
 
   DotEquations equations_;
   const DotPixels* pixels_ = nullptr;  // during a fit
-  PixelNoise noise_;
-  double largest_px_ = 0;  // that the pixels can show
+  PixelNoise noise_;                   // with what the profile may be off
+  double model_variance_ = 0;          // which is this
+  double largest_px_ = 0;              // that the pixels can show
   int steps_ = 0;
 };
 
