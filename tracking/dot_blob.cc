@@ -89,21 +89,34 @@ void RunJoiner::Join(const std::vector<DotRun>& runs, int step_y, std::vector<Do
   }
 }
 
+void KnownBlobs::Add(const Eigen::Vector2i& middle_px, const Eigen::Matrix2d& shape_px2) {
+  blobs_.push_back({middle_px.cast<float>(), shape_px2.inverse().cast<float>()});
+}
+
+bool KnownBlobs::Contains(const Eigen::Vector2i& point_px) const {
+  const Eigen::Vector2f point = point_px.cast<float>();
+  return std::any_of(blobs_.begin(), blobs_.end(), [&](const Blob& blob) {
+    const Eigen::Vector2f away = point - blob.middle_px;
+    return away.dot(blob.inverse_shape * away) <= 1;
+  });
+}
+
 std::optional<DotBlob> DotBlobFinder::Find(const PixelReader& reader, const DotSeed& seed,
                                            const DotBlobLimits& limits, const PixelNoise& noise,
-                                           DotPixels& pixels) {
-  if (auto blob = FindAbove(reader, seed, limits, noise, {}, pixels)) return blob;
-  return FindAbove(reader, seed, limits, noise, {0.75, 0.6, 0.9, 1.028}, pixels);
+                                           const KnownBlobs& known, DotPixels& pixels) {
+  if (known.Contains({seed.clearest.peak_x, seed.clearest.y})) return std::nullopt;
+  if (auto blob = FindAbove(reader, seed, limits, noise, known, {}, pixels)) return blob;
+  return FindAbove(reader, seed, limits, noise, known, {0.75, 0.6, 0.9, 1.028}, pixels);
 }
 
 std::optional<DotBlob> DotBlobFinder::FindAbove(const PixelReader& reader, const DotSeed& seed,
                                                 const DotBlobLimits& limits,
-                                                const PixelNoise& noise, const Heights& heights,
-                                                DotPixels& pixels) {
+                                                const PixelNoise& noise, const KnownBlobs& known,
+                                                const Heights& heights, DotPixels& pixels) {
   Eigen::Vector2i middle(seed.clearest.peak_x, seed.clearest.y);
   double threshold = seed.clearest.surround + heights.border * seed.clearest.contrast;
   const auto reach_px = FindReach(reader, threshold, limits, middle);
-  if (!reach_px) return std::nullopt;
+  if (!reach_px || known.Contains(middle)) return std::nullopt;
   ReadPatch(reader, middle, static_cast<int>(std::ceil(*reach_px + MarginOf(*reach_px) + 2)));
   DotBlob blob;
   blob.start.background = MedianBeyond(middle, *reach_px + kEdge_px);
@@ -123,6 +136,7 @@ std::optional<DotBlob> DotBlobFinder::FindAbove(const PixelReader& reader, const
   if (!HasEdge(moments, blob.start.background, light, heights)) return std::nullopt;
   blob.shape_px2 = 4 * (moments.area_px2 / filled_px2) * moments.covariance_px2;
   blob.origin_px = moments.mean_px.array().round().matrix().cast<int>();
+  if (known.Contains(blob.origin_px)) return std::nullopt;
   const Eigen::Vector2d center = WeightedCenter(moments, blob.start.background);
   blob.start.ellipse = EllipseOf(center - blob.origin_px.cast<double>(), blob.shape_px2);
   double sum = 0;

@@ -39,6 +39,21 @@ struct DotBlobLimits {
   double max_area_px2 = 1300;
 };
 
+// The blobs of a picture that have been looked at: one dot often has several seeds.
+class KnownBlobs {
+ public:
+  void Clear() { blobs_.clear(); }
+  void Add(const Eigen::Vector2i& middle_px, const Eigen::Matrix2d& shape_px2);
+  bool Contains(const Eigen::Vector2i& point_px) const;
+
+ private:
+  struct Blob {
+    Eigen::Vector2f middle_px;
+    Eigen::Matrix2f inverse_shape;
+  };
+  std::vector<Blob> blobs_;
+};
+
 // The most that a dot of this radius may be blurred by, SD. Bumps of light, which have no edge,
 // come out with 0.38 (a paraboloid) to 0.57 (a Gaussian) of their radius at half height.
 double LargestBlur(double radius_px);
@@ -69,11 +84,11 @@ struct DotBlob {
 // side, those above three quarters. Keeps its scratch.
 class DotBlobFinder {
  public:
-  // Nothing where this is no round spot. What the fit needs is put into `pixels`: the spot and a
-  // margin around it, without what else is there.
+  // Nothing where this is no round spot, or one that is known. What the fit needs is put into
+  // `pixels`: the spot and a margin around it, without what else is there.
   std::optional<DotBlob> Find(const PixelReader& reader, const DotSeed& seed,
                               const DotBlobLimits& limits, const PixelNoise& noise,
-                              DotPixels& pixels);
+                              const KnownBlobs& known, DotPixels& pixels);
 
  private:
   // Parts of the way from what surrounds a dot to what it has.
@@ -86,7 +101,8 @@ class DotBlobFinder {
 
   std::optional<DotBlob> FindAbove(const PixelReader& reader, const DotSeed& seed,
                                    const DotBlobLimits& limits, const PixelNoise& noise,
-                                   const Heights& heights, DotPixels& pixels);
+                                   const KnownBlobs& known, const Heights& heights,
+                                   DotPixels& pixels);
   // A window of the picture, its values, and whether each pixel is of the spot.
   struct Patch {
     int left = 0, top = 0, width = 0, height = 0;

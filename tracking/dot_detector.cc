@@ -118,7 +118,7 @@ class DotDetector::Implementation {
         options_.min_contrast, options_.sensitivity * std::sqrt(report_.noise.VarianceAt(0)));
     const DotBlobLimits limits = LimitsOf(options_, scale, least_contrast);
     std::vector<Dot> dots;
-    known_.clear();
+    known_.Clear();
     for (const DotSeed& seed : seeds_) {
       // What it stands out from by the rows that were read may be more than what surrounds it.
       constexpr double kLeastSeen = 0.75;
@@ -192,20 +192,11 @@ class DotDetector::Implementation {
     report_.too_many = true;
   }
 
-  // Whether a pixel is of a blob that has been looked at.
-  bool IsKnown(const Eigen::Vector2d& point_px) const {
-    return std::any_of(known_.begin(), known_.end(), [&](const KnownBlob& known) {
-      const Eigen::Vector2d away = point_px - known.center_px;
-      return away.dot(known.inverse_shape * away) <= 1;
-    });
-  }
-
   std::optional<Dot> Examine(const DotSeed& seed, const DotBlobLimits& limits,
                              const PictureFromImage& picture_from_image) {
-    if (IsKnown(Eigen::Vector2d(seed.clearest.peak_x, seed.clearest.y))) return std::nullopt;
-    const auto blob = finder_.Find(reader_, seed, limits, report_.noise, pixels_);
-    if (!blob || IsKnown(blob->origin_px.cast<double>())) return std::nullopt;
-    known_.push_back({blob->origin_px.cast<double>(), blob->shape_px2.inverse()});
+    const auto blob = finder_.Find(reader_, seed, limits, report_.noise, known_, pixels_);
+    if (!blob) return std::nullopt;
+    known_.Add(blob->origin_px, blob->shape_px2);
     ++report_.blobs;
     bool hidden = false;
     const auto fit = Fit(*blob, hidden);
@@ -352,11 +343,6 @@ class DotDetector::Implementation {
            dot.contrast >= options_.sensitivity * noise && IsWanted(dot.center_px);
   }
 
-  struct KnownBlob {
-    Eigen::Vector2d center_px;  // in the image
-    Eigen::Matrix2d inverse_shape;
-  };
-
   DotDetectorOptions options_;
   std::vector<DotRegion> regions_;
   PixelReader reader_;
@@ -369,7 +355,7 @@ class DotDetector::Implementation {
   DotFitter fitter_;
   std::vector<DotRun> runs_;
   std::vector<DotSeed> seeds_;
-  std::vector<KnownBlob> known_;
+  KnownBlobs known_;
   DotDetectorReport report_;
 };
 
