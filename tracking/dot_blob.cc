@@ -42,6 +42,34 @@ DotEllipse EllipseOf(const Eigen::Vector2d& center_px, const Eigen::Matrix2d& sh
           static_cast<float>(yy), static_cast<float>(kUsualBlur_px)};
 }
 
+// The pixels of each row that are within an ellipse.
+class EllipseRows {
+ public:
+  struct Range {
+    int begin = 0, end = 0;
+  };
+
+  EllipseRows(const Eigen::Vector2d& center_px, const Eigen::Matrix2d& shape_px2)
+      : center_(center_px),
+        height2_(shape_px2(1, 1)),
+        lean_(shape_px2(0, 1) / shape_px2(1, 1)),
+        width2_(shape_px2.determinant() / shape_px2(1, 1)) {}
+
+  // Of row y, within a range that is not empty.
+  Range At(int y, int begin, int end) const {
+    const double dy = y - center_.y();
+    const double part = 1 - dy * dy / height2_;
+    const double middle = center_.x() + lean_ * dy;
+    const double half = part > 0 ? std::sqrt(width2_ * part) : -1;
+    begin = std::clamp(static_cast<int>(std::ceil(middle - half)), begin, end);
+    return {begin, std::clamp(static_cast<int>(std::floor(middle + half)) + 1, begin, end)};
+  }
+
+ private:
+  Eigen::Vector2d center_;
+  double height2_, lean_, width2_;
+};
+
 }  // namespace
 
 Eigen::Matrix2d Grown(const Eigen::Matrix2d& shape_px2, double by_px) {
@@ -139,26 +167,13 @@ std::optional<DotBlob> DotBlobFinder::FindAbove(const PixelReader& reader, const
   if (known.Contains(blob.origin_px)) return std::nullopt;
   const Eigen::Vector2d center = WeightedCenter(moments, blob.start.background);
   blob.start.ellipse = EllipseOf(center - blob.origin_px.cast<double>(), blob.shape_px2);
-  double sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < patch_.inside.size(); ++i)
-    if (patch_.inside[i] != 0) {
-      sum += patch_.values[i];
-      ++count;
-    }
   // The edge's pixels, half of which are of the spot, are darker.
   constexpr double kEdgesShare = 1.1;
-  blob.start.contrast = kEdgesShare * (sum / count - blob.start.background);
+  blob.start.contrast = kEdgesShare * (moments.mean_value - blob.start.background);
   if (blob.start.contrast < limits.least_contrast) return std::nullopt;
   blob.cut = FindCut(moments, blob);
   GatherPixels(reader, blob, noise, pixels);
-  for (int y = patch_.top; y < patch_.top + patch_.height; ++y)
-    for (int x = patch_.left; x < patch_.left + patch_.width; ++x)
-      if (patch_.inside[patch_.Index(x, y)] != 0) {
-        blob.saturated = blob.saturated || reader.IsSaturated(x, y);
-        blob.at_border = blob.at_border || x == 0 || y == 0 || x == reader.width() - 1 ||
-                         y == reader.height() - 1;
-      }
+  MarkBorders(reader, blob);
   return blob;
 }
 
@@ -253,12 +268,15 @@ bool DotBlobFinder::Grow(const PixelReader& reader, const Eigen::Vector2i& from,
 }
 
 DotBlobFinder::Moments DotBlobFinder::MeasureInside() const {
-  // Whole numbers: exact.
+  // Places are whole numbers: exact.
   long count = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0, sum_yy = 0;
+  double values = 0;
   for (int y = patch_.begin.y(); y < patch_.end.y(); ++y) {
     long in_row = 0, row_x = 0;
     for (int x = patch_.begin.x(); x < patch_.end.x(); ++x) {
-      const long inside = patch_.inside[y * patch_.width + x];
+      const int index = y * patch_.width + x;
+      const long inside = patch_.inside[index];
+      if (inside != 0) values += patch_.values[index];
       in_row += inside;
       row_x += inside * x;
       sum_xx += inside * x * x;
@@ -276,7 +294,22 @@ DotBlobFinder::Moments DotBlobFinder::MeasureInside() const {
   Eigen::Matrix2d squares;
   squares << part(sum_xx), part(sum_xy), part(sum_xy), part(sum_yy);
   return {total, mean + Eigen::Vector2d(patch_.left, patch_.top),
-          squares - mean * mean.transpose() + Eigen::Matrix2d::Identity() / 12};
+          squares - mean * mean.transpose() + Eigen::Matrix2d::Identity() / 12, values / total};
+}
+
+void DotBlobFinder::MarkBorders(const PixelReader& reader, DotBlob& blob) const {
+  const Eigen::Vector2i corner(patch_.left, patch_.top);
+  const Eigen::Vector2i begin = corner + patch_.begin, end = corner + patch_.end;
+  blob.at_border =
+      begin.x() == 0 || begin.y() == 0 || end.x() == reader.width() || end.y() == reader.height();
+  for (int y = begin.y(); y < end.y(); ++y)
+    for (int x = begin.x(); x < end.x(); ++x) {
+      const int index = patch_.Index(x, y);
+      if (patch_.inside[index] != 0 && reader.IsSaturated(x, y, patch_.values[index])) {
+        blob.saturated = true;
+        return;
+      }
+    }
 }
 
 template <class Use>
@@ -397,29 +430,34 @@ Eigen::Vector2d DotBlobFinder::WeightedCenter(const Moments& moments, double bac
 void DotBlobFinder::GatherPixels(const PixelReader& reader, const DotBlob& blob,
                                  const PixelNoise& noise, DotPixels& pixels) const {
   const double radius_px = std::pow(blob.shape_px2.determinant(), 0.25);
-  const Eigen::Matrix2f window = Grown(blob.shape_px2, MarginOf(radius_px)).inverse().cast<float>();
-  const Eigen::Matrix2f own = Grown(blob.shape_px2, kEdge_px).inverse().cast<float>();
-  const auto form = [](const Eigen::Matrix2f& inverse, float dx, float dy) {
-    return inverse(0, 0) * dx * dx + 2 * inverse(0, 1) * dx * dy + inverse(1, 1) * dy * dy;
-  };
+  const Eigen::Vector2d center = blob.start.ellipse.center_px.cast<double>();
+  const EllipseRows window(center, Grown(blob.shape_px2, MarginOf(radius_px)));
+  const EllipseRows own(center, Grown(blob.shape_px2, kEdge_px));
   // A slope of light stays below this, other things do not.
   const auto background = static_cast<float>(blob.start.background);
   const auto foreign = static_cast<float>(
       std::max(6 * std::sqrt(noise.VarianceAt(background)), 0.3 * blob.start.contrast));
-  const Eigen::Vector2f& center = blob.start.ellipse.center_px;
+  const int left = patch_.left - blob.origin_px.x(), top = patch_.top - blob.origin_px.y();
   pixels.Start(patch_.width * patch_.height);
-  for (int y = 0; y < patch_.height; ++y)
-    for (int x = 0; x < patch_.width; ++x) {
-      const auto at_x = static_cast<float>(x + patch_.left - blob.origin_px.x());
-      const auto at_y = static_cast<float>(y + patch_.top - blob.origin_px.y());
-      const float dx = at_x - center.x(), dy = at_y - center.y();
-      if (form(window, dx, dy) > 1) continue;
-      const float value = patch_.values[y * patch_.width + x];
-      // Of the ground every second pixel tells enough.
-      const bool is_ground = form(own, dx, dy) > 1;
-      if (is_ground && ((x + y) % 2 != 0 || std::abs(value - background) > foreign)) continue;
-      pixels.Add(at_x, at_y, value, reader.IsSaturated(x + patch_.left, y + patch_.top));
-    }
+  for (int row = 0; row < patch_.height; ++row) {
+    const int y = row + top;
+    const auto all = window.At(y, left, left + patch_.width);
+    const auto dot = own.At(y, all.begin, all.end);
+    const float* const values = &patch_.values[row * patch_.width] - left;
+    const auto add = [&](int x) {
+      pixels.Add(static_cast<float>(x), static_cast<float>(y), values[x],
+                 reader.IsSaturated(x + blob.origin_px.x(), y + blob.origin_px.y(), values[x]));
+    };
+    // Of the ground every second pixel tells enough.
+    const auto add_ground = [&](int begin, int end) {
+      const int odd = (begin + y + blob.origin_px.sum()) & 1;
+      for (int x = begin + odd; x < end; x += 2)
+        if (std::abs(values[x] - background) <= foreign) add(x);
+    };
+    add_ground(all.begin, dot.begin);
+    for (int x = dot.begin; x < dot.end; ++x) add(x);
+    add_ground(dot.end, all.end);
+  }
   pixels.Finish();
 }
 

@@ -116,6 +116,7 @@ class DotBlobFinder {
     double area_px2 = 0;
     Eigen::Vector2d mean_px = Eigen::Vector2d::Zero();  // in the picture
     Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
+    double mean_value = 0;
   };
 
   // Goes to the middle of the row and the column that the seed is in, and from there outwards in
@@ -130,6 +131,8 @@ class DotBlobFinder {
   // border within the picture.
   bool Grow(const PixelReader& reader, const Eigen::Vector2i& from, double threshold);
   Moments MeasureInside() const;
+  // Whether what is inside touches the picture's border, and whether some of it is saturated.
+  void MarkBorders(const PixelReader& reader, DotBlob& blob) const;
   // Whether the pixels inside are those of an ellipse.
   bool IsEllipse(const Moments& moments) const;
   // Of the patch without a disc.

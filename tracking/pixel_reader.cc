@@ -9,9 +9,6 @@
 namespace articap {
 namespace {
 
-// A little less than the last code of 8 bits, and what cameras of 10 or 12 bits end at in 16.
-constexpr float kSaturation = 0.998f;
-
 std::uint16_t Code16(const ImageView& image, int x, int y) {
   std::uint16_t code = 0;
   std::memcpy(&code, image.row(y) + 2 * static_cast<std::ptrdiff_t>(x), sizeof(code));
@@ -96,8 +93,7 @@ void PixelReader::ReadValues(int x, int y, int count, float* values) const {
   for (int i = 0; i < count; ++i) values[i] = Value(x + i, y);
 }
 
-bool PixelReader::IsSaturated(int x, int y) const {
-  if (image_.format != PixelFormat::kRgb8) return Value(x, y) >= kSaturation;
+bool PixelReader::IsColorSaturated(int x, int y) const {
   const std::uint8_t* rgb = Rgb(image_, x, y);
   for (int channel = 0; channel < 3; ++channel)
     if (rgb[channel] == (weights_[channel] > 0 ? 255 : 0) && std::abs(weights_[channel]) > 0.2f)
