@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace articap {
 namespace {
@@ -64,11 +65,29 @@ void KeepPossible(double largest_px, Parameters& at) {
   at[kY] = std::clamp(at[kY], -largest_px, largest_px);
 }
 
-Some DampedStep(const Normal& normal, int free, double damping) {
-  SomeByAll damped = normal.topLeftCorner(free, free);
+// Of the first `kFree` parameters.
+template <int kFree>
+Some DampedStepOf(const Normal& normal, double damping) {
+  Eigen::Matrix<double, kFree, kFree> damped = normal.topLeftCorner<kFree, kFree>();
   damped.diagonal() *= 1 + damping;
   damped.diagonal().array() += 1e-12 * damped.diagonal().maxCoeff();
-  return damped.llt().solve(Some(normal.col(kNum).head(free)));
+  const Eigen::Matrix<double, kFree, 1> side = normal.col(kNum).head<kFree>();
+  return damped.llt().solve(side);
+}
+
+Some DampedStep(const Normal& normal, int free, double damping) {
+  switch (free) {
+    case DotEquations::kNumEven:
+      return DampedStepOf<DotEquations::kNumEven>(normal, damping);
+    case kBend:
+      return DampedStepOf<kBend>(normal, damping);
+    case kShade:
+      return DampedStepOf<kShade>(normal, damping);
+    case kShadeOfHeight:
+      return DampedStepOf<kShadeOfHeight>(normal, damping);
+    default:
+      return DampedStepOf<kNum>(normal, damping);
+  }
 }
 
 // What chi^2 is by noise alone a pixel, as the variances have more in them.
@@ -107,15 +126,21 @@ std::optional<DotFit> DotFitter::FitShaded(const DotPixels& pixels, const DotMod
   State state;
   Start(pixels, start, noise, state);
   state.free = kNum;
-  const State even = state;
-  Minimise(Weights::kByModel, kMostSteps, state);
+  Evaluate(Weights::kByModel, state);
   constexpr double kMostSaturated = 0.3;
   if (pixels.num_saturated() > kMostSaturated * state.own.count) return std::nullopt;
+  // Of chi^2, by the first step: where it is less, the rest of the way has been in vain.
+  constexpr double kLeastFall = 0.1;
+  const Some step = DampedStep(state.normal, kNum, 0);
+  if (!(step.dot(state.normal.col(kNum).head<kNum>()) > kLeastFall * state.normal(kNum, kNum)))
+    return std::nullopt;
+  const State even = state;
+  Descend(true, kMostSteps, state);
   // Nothing is darker in its middle.
   if (state.at[kShadeOfHeight] < 0) {
     state = even;
     state.free = kShadeOfHeight;
-    Minimise(Weights::kByModel, kMostSteps, state);
+    Descend(true, kMostSteps, state);
   }
   return Conclude(state);
 }
@@ -175,32 +200,36 @@ void DotFitter::Evaluate(Weights weights, State& state, double scale) {
 
 void DotFitter::Minimise(Weights weights, int most_steps, State& state) {
   Evaluate(weights, state);
-  bool weighs = weights == Weights::kByModel;
+  Descend(weights == Weights::kByModel, most_steps, state);
+}
+
+void DotFitter::Descend(bool weighs, int most_steps, State& state) {
   double damping = state.free > kShade ? 1e-2 : 1e-3;
-  State next;
+  State other;
+  State *now = &state, *next = &other;
   for (int tried = 0; tried < most_steps; ++tried, ++steps_) {
-    const Some step = DampedStep(state.normal, state.free, damping);
-    next.at = state.at;
-    next.free = state.free;
-    next.at.head(state.free) += step;
-    KeepPossible(largest_px_, next.at);
-    const double chi2 = state.normal(kNum, kNum);
+    const Some step = DampedStep(now->normal, now->free, damping);
+    next->at = now->at;
+    next->free = now->free;
+    next->at.head(now->free) += step;
+    KeepPossible(largest_px_, next->at);
+    const double chi2 = now->normal(kNum, kNum);
     // In units of the standard deviations that the misfit makes likely.
     constexpr double kArrived2 = 0.5;
-    const double moved2 = step.dot(state.normal.topLeftCorner(state.free, state.free) * step);
+    const double moved2 = step.dot(now->normal.topLeftCorner(now->free, now->free) * step);
     if (!(moved2 > kArrived2 * std::max(1.0, chi2 / pixels_->count()))) {
-      state.at = next.at;
-      Advance(step, state.normal);
+      now->at = next->at;
+      Advance(step, now->normal);
       break;
     }
-    Evaluate(weighs ? Weights::kByModel : Weights::kKept, next);
+    Evaluate(weighs ? Weights::kByModel : Weights::kKept, *next);
     // Other weights change chi^2 a little.
-    if (next.normal(kNum, kNum) <= (weighs ? 1.5 : 1.0) * chi2) {
+    if (next->normal(kNum, kNum) <= (weighs ? 1.5 : 1.0) * chi2) {
       // What is far from the model by other things than noise is not worth small steps.
-      constexpr double kWorthwhile = 0.005, kFar = 2;
-      const bool is_worthwhile = weighs || next.normal(kNum, kNum) < (1 - kWorthwhile) * chi2 ||
+      constexpr double kWorthwhile = 0.01, kFar = 2;
+      const bool is_worthwhile = weighs || next->normal(kNum, kNum) < (1 - kWorthwhile) * chi2 ||
                                  chi2 < kFar * pixels_->count();
-      state = next;
+      std::swap(now, next);
       if (!is_worthwhile) break;
       damping *= 0.1;
       weighs = false;
@@ -208,6 +237,7 @@ void DotFitter::Minimise(Weights weights, int most_steps, State& state) {
       damping = std::max(10 * damping, 0.01);
     }
   }
+  if (now != &state) state = *now;
 }
 
 void DotFitter::Extend(int most_steps, State& state) {
@@ -217,7 +247,7 @@ void DotFitter::Extend(int most_steps, State& state) {
   Evaluate(Weights::kKept, more);
   more.free = SupportedBy(more, state.free);
   if (more.free == state.free) return;
-  Minimise(Weights::kByModel, most_steps, more);
+  Descend(true, most_steps, more);
   state = more;
 }
 
