@@ -101,13 +101,6 @@ double LeftOf(const DotEquations::Own& own, double model_variance, double contra
   return std::sqrt(std::max(0.0, own.chi2 - expected) / own.weight) / contrast;
 }
 
-// What the equations will be after a small step.
-void Advance(const Some& step, Normal& normal) {
-  const double fall = step.dot(normal.col(kNum).head(step.size()));
-  normal.col(kNum).head<kNum>() -= normal.topLeftCorner(kNum, step.size()) * step;
-  normal(kNum, kNum) -= fall;
-}
-
 }  // namespace
 
 std::optional<DotFit> DotFitter::Fit(const DotPixels& pixels, const DotModel& start,
@@ -153,8 +146,8 @@ std::optional<DotFit> DotFitter::FitRobustly(const DotPixels& pixels, const DotM
   constexpr int kPasses = 5;
   for (int pass = 0; pass < kPasses; ++pass, widening = std::max(1.0, widening / 2)) {
     Evaluate(Weights::kByLoss, state, widening * scale * state.at[kContrast]);
-    Minimise(Weights::kKept, kMostRobustSteps, state);
-    Extend(kMostRobustSteps, state);
+    Descend(false, kMostRobustSteps, state);
+    if (pass == kPasses - 1) Extend(kMostRobustSteps, state);
   }
   std::optional<DotFit> fit = Conclude(state);
   if (fit) fit->disbelieved = equations_.disbelieved();
@@ -216,10 +209,12 @@ void DotFitter::Descend(bool weighs, int most_steps, State& state) {
     const double chi2 = now->normal(kNum, kNum);
     // In units of the standard deviations that the misfit makes likely.
     constexpr double kArrived2 = 0.5;
-    const double moved2 = step.dot(now->normal.topLeftCorner(now->free, now->free) * step);
+    const double fall = step.dot(now->normal.col(kNum).head(now->free));
+    const double moved2 =
+        fall - damping * step.cwiseAbs2().dot(now->normal.diagonal().head(now->free));
     if (!(moved2 > kArrived2 * std::max(1.0, chi2 / pixels_->count()))) {
       now->at = next->at;
-      Advance(step, now->normal);
+      now->normal(kNum, kNum) -= fall;
       break;
     }
     Evaluate(weighs ? Weights::kByModel : Weights::kKept, *next);
