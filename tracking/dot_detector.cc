@@ -29,7 +29,7 @@ PixelValues ValuesOf(const DotDetectorOptions& options) {
 constexpr double kMostLeft = 3;
 constexpr double kMostHiding = 1.5;
 constexpr double kPlain = 0.8;
-constexpr double kClean = 0.3;
+constexpr double kClean = 0.36;
 
 // The pixels of an image are not always square: lengths along x and y are divided by `scale`.
 DotBlobLimits LimitsOf(const DotDetectorOptions& options, const Eigen::Vector2d& scale,
