@@ -29,6 +29,11 @@ enum Parameter {
 constexpr double kLeastBlur_px = 0.289;
 constexpr int kMostSteps = 8;
 constexpr int kMostRobustSteps = 2;  // at each width of the loss
+// The square of the last step, which is taken without another look at the pixels, in units of the
+// standard deviations that the misfit makes likely; where the ground is looked at next, of a step
+// that is made good there.
+constexpr double kArrived2 = 0.5;
+constexpr double kNear2 = 4;
 
 constexpr int kNum = DotEquations::kNumParameters;
 using Parameters = Eigen::Matrix<double, kNum, 1>;
@@ -108,7 +113,8 @@ std::optional<DotFit> DotFitter::Fit(const DotPixels& pixels, const DotModel& st
   State state;
   Start(pixels, start, noise, state);
   if (ground == DotGround::kUneven) state.free = kShade;
-  Minimise(Weights::kByModel, kMostSteps, state);
+  Minimise(Weights::kByModel, ground == DotGround::kSupported ? kNear2 : kArrived2, kMostSteps,
+           state);
   if (!(LeftOf(state.own, model_variance_, state.at[kContrast]) <= most_left)) return std::nullopt;
   Extend(kMostSteps, state);
   return Conclude(state);
@@ -128,12 +134,12 @@ std::optional<DotFit> DotFitter::FitShaded(const DotPixels& pixels, const DotMod
   if (!(step.dot(state.normal.col(kNum).head<kNum>()) > kLeastFall * state.normal(kNum, kNum)))
     return std::nullopt;
   const State even = state;
-  Descend(true, kMostSteps, state);
+  Descend(true, kArrived2, kMostSteps, state);
   // Nothing is darker in its middle.
   if (state.at[kShadeOfHeight] < 0) {
     state = even;
     state.free = kShadeOfHeight;
-    Descend(true, kMostSteps, state);
+    Descend(true, kArrived2, kMostSteps, state);
   }
   return Conclude(state);
 }
@@ -146,7 +152,7 @@ std::optional<DotFit> DotFitter::FitRobustly(const DotPixels& pixels, const DotM
   constexpr int kPasses = 5;
   for (int pass = 0; pass < kPasses; ++pass, widening = std::max(1.0, widening / 2)) {
     Evaluate(Weights::kByLoss, state, widening * scale * state.at[kContrast]);
-    Descend(false, kMostRobustSteps, state);
+    Descend(false, kArrived2, kMostRobustSteps, state);
     if (pass == kPasses - 1) Extend(kMostRobustSteps, state);
   }
   std::optional<DotFit> fit = Conclude(state);
@@ -191,12 +197,12 @@ void DotFitter::Evaluate(Weights weights, State& state, double scale) {
   state.normal(kNum, kNum) += information * apart * apart;
 }
 
-void DotFitter::Minimise(Weights weights, int most_steps, State& state) {
+void DotFitter::Minimise(Weights weights, double arrived2, int most_steps, State& state) {
   Evaluate(weights, state);
-  Descend(weights == Weights::kByModel, most_steps, state);
+  Descend(weights == Weights::kByModel, arrived2, most_steps, state);
 }
 
-void DotFitter::Descend(bool weighs, int most_steps, State& state) {
+void DotFitter::Descend(bool weighs, double arrived2, int most_steps, State& state) {
   double damping = state.free > kShade ? 1e-2 : 1e-3;
   State other;
   State *now = &state, *next = &other;
@@ -207,12 +213,10 @@ void DotFitter::Descend(bool weighs, int most_steps, State& state) {
     next->at.head(now->free) += step;
     KeepPossible(largest_px_, next->at);
     const double chi2 = now->normal(kNum, kNum);
-    // In units of the standard deviations that the misfit makes likely.
-    constexpr double kArrived2 = 0.5;
     const double fall = step.dot(now->normal.col(kNum).head(now->free));
     const double moved2 =
         fall - damping * step.cwiseAbs2().dot(now->normal.diagonal().head(now->free));
-    if (!(moved2 > kArrived2 * std::max(1.0, chi2 / pixels_->count()))) {
+    if (!(moved2 > arrived2 * std::max(1.0, chi2 / pixels_->count()))) {
       now->at = next->at;
       now->normal(kNum, kNum) -= fall;
       break;
@@ -241,8 +245,7 @@ void DotFitter::Extend(int most_steps, State& state) {
   more.free = kShade;
   Evaluate(Weights::kKept, more);
   more.free = SupportedBy(more, state.free);
-  if (more.free == state.free) return;
-  Descend(true, most_steps, more);
+  Descend(more.free != state.free, kArrived2, most_steps, more);
   state = more;
 }
 

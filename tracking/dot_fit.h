@@ -75,9 +75,9 @@ class DotFitter {
   void Start(const DotPixels& pixels, const DotModel& start, const PixelNoise& noise, State& state);
   void Evaluate(Weights weights, State& state, double scale = 1);
   // kByModel: weights are of the model after the first step.
-  void Minimise(Weights weights, int most_steps, State& state);
+  void Minimise(Weights weights, double arrived2, int most_steps, State& state);
   // The same from a state that has been evaluated; weighs: with other weights after the first step.
-  void Descend(bool weighs, int most_steps, State& state);
+  void Descend(bool weighs, double arrived2, int most_steps, State& state);
   // Frees slope and bend as far as the pixels support them.
   void Extend(int most_steps, State& state);
   // How many parameters that is.
