@@ -132,16 +132,20 @@ bool KnownBlobs::Contains(const Eigen::Vector2i& point_px) const {
 std::optional<DotBlob> DotBlobFinder::Find(const PixelReader& reader, const DotSeed& seed,
                                            const DotBlobLimits& limits, const PixelNoise& noise,
                                            const KnownBlobs& known, DotPixels& pixels) {
-  if (known.Contains({seed.clearest.peak_x, seed.clearest.y})) return std::nullopt;
-  if (auto blob = FindAbove(reader, seed, limits, noise, known, {}, pixels)) return blob;
-  return FindAbove(reader, seed, limits, noise, known, {0.75, 0.6, 0.9, 1.028}, pixels);
+  const Eigen::Vector2i peak(seed.clearest.peak_x, seed.clearest.y);
+  if (known.Contains(peak)) return std::nullopt;
+  Eigen::Vector2i middle = peak;
+  if (auto blob = FindAbove(reader, seed, limits, noise, known, {}, middle, pixels)) return blob;
+  if (known.Contains(middle)) return std::nullopt;
+  middle = peak;
+  return FindAbove(reader, seed, limits, noise, known, {0.75, 0.6, 0.9, 1.028}, middle, pixels);
 }
 
 std::optional<DotBlob> DotBlobFinder::FindAbove(const PixelReader& reader, const DotSeed& seed,
                                                 const DotBlobLimits& limits,
                                                 const PixelNoise& noise, const KnownBlobs& known,
-                                                const Heights& heights, DotPixels& pixels) {
-  Eigen::Vector2i middle(seed.clearest.peak_x, seed.clearest.y);
+                                                const Heights& heights, Eigen::Vector2i& middle,
+                                                DotPixels& pixels) {
   double threshold = seed.clearest.surround + heights.border * seed.clearest.contrast;
   const auto reach_px = FindReach(reader, threshold, limits, middle);
   if (!reach_px || known.Contains(middle)) return std::nullopt;

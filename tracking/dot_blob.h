@@ -99,10 +99,11 @@ class DotBlobFinder {
     double apart_sigma = 1.349;  // so many SD of its blur
   };
 
+  // From `middle`, which is moved to the middle of what is found, also where this is no dot.
   std::optional<DotBlob> FindAbove(const PixelReader& reader, const DotSeed& seed,
                                    const DotBlobLimits& limits, const PixelNoise& noise,
                                    const KnownBlobs& known, const Heights& heights,
-                                   DotPixels& pixels);
+                                   Eigen::Vector2i& middle, DotPixels& pixels);
   // A window of the picture, its values, and whether each pixel is of the spot.
   struct Patch {
     int left = 0, top = 0, width = 0, height = 0;
