@@ -175,7 +175,7 @@ std::optional<DotBlob> DotBlobFinder::FindAbove(const PixelReader& reader, const
   constexpr double kEdgesShare = 1.1;
   blob.start.contrast = kEdgesShare * (moments.mean_value - blob.start.background);
   if (blob.start.contrast < limits.least_contrast) return std::nullopt;
-  blob.cut = FindCut(moments, blob);
+  found_ = moments;
   GatherPixels(reader, blob, noise, pixels);
   MarkBorders(reader, blob);
   return blob;
@@ -383,22 +383,38 @@ bool DotBlobFinder::HasEdge(const Moments& moments, double background, double li
   return blur_px <= LargestBlur(std::sqrt(moments.area_px2 / std::numbers::pi));
 }
 
-std::optional<DotBlob::Cut> DotBlobFinder::FindCut(const Moments& moments,
-                                                   const DotBlob& blob) const {
+std::optional<DotBlob::Cut> DotBlobFinder::FindCut(const DotBlob& blob) const {
+  const Moments& moments = found_;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(moments.covariance_px2);
   const Eigen::Vector2f deviation = axes.eigenvalues().cwiseSqrt().cast<float>();
   const Eigen::Matrix2f directions = axes.eigenvectors().cast<float>();
-  Eigen::Vector2f skewness = Eigen::Vector2f::Zero(), least = Eigen::Vector2f::Zero(), most = least;
-  ForEachPixel(moments, [&](int index, float dx, float dy, float) {
-    if (patch_.inside[index] == 0) return;
+  Eigen::Vector2f least = Eigen::Vector2f::Zero(), most = least;
+  // Moments of the light, which tells parts of pixels too.
+  const float within = 1 + 2 / ShortestOf(4 * moments.covariance_px2);
+  const auto dark = static_cast<float>(blob.start.background);
+  const auto full = static_cast<float>(1 / blob.start.contrast);
+  float sum = 0;
+  Eigen::Array2f first = Eigen::Array2f::Zero(), second = first, third = first;
+  ForEachPixel(moments, [&](int index, float dx, float dy, float f2) {
+    if (f2 > within * within) return;
     const Eigen::Vector2f at = directions.transpose() * Eigen::Vector2f(dx, dy);
-    skewness += at.cwiseQuotient(deviation).array().cube().matrix();
+    const float light = std::clamp((patch_.values[index] - dark) * full, 0.0f, 1.0f);
+    const Eigen::Array2f by = light * at.array();
+    sum += light;
+    first += by;
+    second += by * at.array();
+    third += by * at.array().square();
+    if (patch_.inside[index] == 0) return;
     least = least.cwiseMin(at);
     most = most.cwiseMax(at);
   });
-  skewness /= static_cast<float>(moments.area_px2);
+  first /= sum;
+  second /= sum;
+  const Eigen::Array2f variance = second - first.square();
+  const Eigen::Array2f skewness =
+      (third / sum - 3 * first * second + 2 * first.cube()) / (variance * variance.sqrt());
   // The shorter axis is the one that something was taken from. With a tenth cut off there is 0.1.
-  constexpr float kCut = 0.1f;
+  constexpr float kCut = 0.06f;
   if (std::abs(skewness[0]) < kCut || std::abs(skewness[0]) < std::abs(skewness[1]))
     return std::nullopt;
   // The light thins out towards the side that is there.

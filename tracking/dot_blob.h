@@ -90,6 +90,10 @@ class DotBlobFinder {
                               const DotBlobLimits& limits, const PixelNoise& noise,
                               const KnownBlobs& known, DotPixels& pixels);
 
+  // Of the blob that was found last. Of an ellipse the third moments are zero; of one with a side
+  // cut off they point away from it.
+  std::optional<DotBlob::Cut> FindCut(const DotBlob& blob) const;
+
  private:
   // Parts of the way from what surrounds a dot to what it has.
   struct Heights {
@@ -144,8 +148,6 @@ class DotBlobFinder {
   // Whether the spot ends as a dot does, from the areas above two heights.
   bool HasEdge(const Moments& moments, double background, double light,
                const Heights& heights) const;
-  // Of an ellipse the third moments are zero; of one with a side cut off they point away from it.
-  std::optional<DotBlob::Cut> FindCut(const Moments& moments, const DotBlob& blob) const;
   Eigen::Vector2d WeightedCenter(const Moments& moments, double background) const;
   void GatherPixels(const PixelReader& reader, const DotBlob& blob, const PixelNoise& noise,
                     DotPixels& pixels) const;
@@ -153,6 +155,7 @@ class DotBlobFinder {
   static constexpr int kDirections = 8;
 
   Patch patch_;
+  Moments found_;  // of the last blob
   // The pixels on the way outwards in eight directions, which with their opposites go all around.
   std::vector<Eigen::Vector2i> ways_out_;
   std::vector<Eigen::Vector2i> open_;

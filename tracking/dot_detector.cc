@@ -194,7 +194,7 @@ class DotDetector::Implementation {
 
   std::optional<Dot> Examine(const DotSeed& seed, const DotBlobLimits& limits,
                              const PictureFromImage& picture_from_image) {
-    const auto blob = finder_.Find(reader_, seed, limits, report_.noise, known_, pixels_);
+    auto blob = finder_.Find(reader_, seed, limits, report_.noise, known_, pixels_);
     if (!blob) return std::nullopt;
     known_.Add(blob->origin_px, blob->shape_px2);
     ++report_.blobs;
@@ -218,14 +218,16 @@ class DotDetector::Implementation {
 
   // As if all were to be seen, evenly lit; else what explains it better: that a part is hidden,
   // that it is a ball in the light of a lamp, that the ground is uneven, or that something is near.
-  std::optional<DotFit> Fit(const DotBlob& blob, bool& hidden) {
+  std::optional<DotFit> Fit(DotBlob& blob, bool& hidden) {
     hidden = false;
     const auto even = fitter_.Fit(pixels_, blob.start, report_.noise, DotGround::kSupported,
                                   kMostLeft * options_.max_misfit);
     if (!even) return std::nullopt;
-    const bool follows = Follows(even, blob, kPlain);
     const double clean = kClean * options_.max_misfit;
-    if (follows && std::max(even->left, even->left_of_all) <= clean) return even;
+    if (Follows(even, blob, kPlain) && even->left_of_all <= clean && even->left <= clean)
+      return even;
+    blob.cut = finder_.FindCut(blob);
+    const bool follows = Follows(even, blob, kPlain);
     // With a side cut off the even ellipse, and the shaded one too, would lie beside the middle.
     constexpr double kCutExplains = 0.5;
     if (blob.cut)
@@ -287,10 +289,13 @@ class DotDetector::Implementation {
     start.ellipse = blob.cut->whole;
     rest_.CopyBefore(pixels_, blob.cut->direction, blob.cut->limit_px);
     auto whole = fitter_.Fit(rest_, start, report_.noise);
-    // What is there says enough of what is not.
-    constexpr double kLeastThere = 0.4;
-    const double area = 1 / (whole ? whole->model.ellipse.xx * whole->model.ellipse.yy : 1);
-    if (std::sqrt(blob.shape_px2.determinant()) < kLeastThere * area) whole.reset();
+    if (!whole) return std::nullopt;
+    // What is there says enough of what is not: its area, and the middle to a part of the radius.
+    constexpr double kLeastThere = 0.4, kMostUncertain = 0.2;
+    const double radius_px = RadiusOf(whole->model.ellipse);
+    if (std::sqrt(blob.shape_px2.determinant()) < kLeastThere * radius_px * radius_px ||
+        std::sqrt(whole->covariance_px2.trace() / 2) > kMostUncertain * radius_px)
+      return std::nullopt;
     return whole;
   }
 

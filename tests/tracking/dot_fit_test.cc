@@ -77,12 +77,18 @@ DotModel Moved(const DotModel& model, int parameter, double step) {
   return moved;
 }
 
-// An even dot on even ground.
-Case MakeEvenCase() {
+// An even dot.
+Case MakeUnshadedCase() {
   Case made = MakeCase();
+  made.model.shade.setZero();
+  return made;
+}
+
+// On even ground.
+Case MakeEvenCase() {
+  Case made = MakeUnshadedCase();
   made.model.slope_per_px.setZero();
   made.model.bend_per_px2.setZero();
-  made.model.shade.setZero();
   return made;
 }
 
@@ -109,27 +115,36 @@ void ExpectGradient(const Case& made, DotEquations::Terms terms, int num_paramet
 
 TEST(DotEquationsTest, GradientIsThatOfTheSumOfSquares) {
   ExpectGradient(MakeCase(), DotEquations::Terms::kAll, DotEquations::kNumParameters);
+  ExpectGradient(MakeUnshadedCase(), DotEquations::Terms::kGround, DotEquations::kNumGround);
   ExpectGradient(MakeEvenCase(), DotEquations::Terms::kEven, DotEquations::kNumEven);
 }
 
-TEST(DotEquationsTest, TermsThatAreZeroMayBeLeftOut) {
-  const Case made = MakeEvenCase();
+void ExpectAllsCorner(const Case& made, DotEquations::Terms terms, int num_parameters) {
   DotEquations equations;
-  const auto at = [&](DotEquations::Terms terms) {
-    return equations.At(made.pixels, made.model, made.noise, terms,
+  const auto at = [&](DotEquations::Terms wanted) {
+    return equations.At(made.pixels, made.model, made.noise, wanted,
                         DotEquations::Weights::kByModel);
   };
-  const auto even = at(DotEquations::Terms::kEven), all = at(DotEquations::Terms::kAll);
-  constexpr int kEven = DotEquations::kNumEven;
-  EXPECT_TRUE(
-      (even.topLeftCorner<kEven, kEven>()).isApprox(all.topLeftCorner<kEven, kEven>(), 1e-6));
-  EXPECT_TRUE((even.rightCols<1>().head<kEven>()).isApprox(all.rightCols<1>().head<kEven>(), 1e-5));
+  const auto some = at(terms), all = at(DotEquations::Terms::kAll);
+  const auto corner = [&](const DotEquations::Normal& normal) {
+    return normal.topLeftCorner(num_parameters, num_parameters);
+  };
+  EXPECT_TRUE(corner(some).isApprox(corner(all), 1e-6));
+  EXPECT_TRUE(some.rightCols<1>()
+                  .head(num_parameters)
+                  .isApprox(all.rightCols<1>().head(num_parameters), 1e-5));
+}
+
+TEST(DotEquationsTest, TermsThatAreZeroMayBeLeftOut) {
+  ExpectAllsCorner(MakeEvenCase(), DotEquations::Terms::kEven, DotEquations::kNumEven);
+  ExpectAllsCorner(MakeUnshadedCase(), DotEquations::Terms::kGround, DotEquations::kNumGround);
 }
 
 TEST(DotEquationsTest, EveryLevelOfInstructionsGivesTheSameBits) {
   const Case made = MakeCase();
   for (const auto weights : {DotEquations::Weights::kByModel, DotEquations::Weights::kByLoss}) {
-    for (const auto terms : {DotEquations::Terms::kEven, DotEquations::Terms::kAll}) {
+    for (const auto terms :
+         {DotEquations::Terms::kEven, DotEquations::Terms::kGround, DotEquations::Terms::kAll}) {
       DotEquations plain(SimdLevel::kNone), best(BestSimdLevel());
       const auto first = plain.At(made.pixels, made.model, made.noise, terms, weights, 0.1);
       const auto second = best.At(made.pixels, made.model, made.noise, terms, weights, 0.1);
