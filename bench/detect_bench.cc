@@ -3,6 +3,7 @@
 // equal recall. Frames are cycled through more than 256 MB, as those of a video are.
 #include <benchmark/benchmark.h>
 
+#include <cstring>
 #include <opencv2/features2d.hpp>
 
 #include "tests/support/face_dots.h"
@@ -109,6 +110,26 @@ void BM_DotsBySimpleBlobDetector(benchmark::State& state) {
   Score(state, detect);
 }
 BENCHMARK(BM_DotsBySimpleBlobDetector)->Unit(benchmark::kMillisecond);
+
+// What memory alone allows: every byte of the same frames, once.
+void BM_ReadingFrames(benchmark::State& state) {
+  Frames();  // rendered before the clock runs
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const Image& frame = Frames()[next];
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i + sizeof(sum) <= frame.bytes.size(); i += sizeof(sum)) {
+      std::uint64_t word;
+      std::memcpy(&word, frame.bytes.data() + i, sizeof(word));
+      sum += word;
+    }
+    benchmark::DoNotOptimize(sum);
+    next = (next + 1) % Frames().size();
+  }
+  state.counters["frames_per_s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+BENCHMARK(BM_ReadingFrames)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace articap

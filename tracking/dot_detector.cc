@@ -23,11 +23,13 @@ PixelValues ValuesOf(const DotDetectorOptions& options) {
   return {options.polarity == DotPolarity::kDark, options.tone == DotTone::kSrgb, *color};
 }
 
-// Of max_misfit: above kMostLeft nothing can be a dot, below kPlain it need not be asked whether
-// something is near, and below kClean not whether something hides a part.
-constexpr double kMostLeft = 4;
-constexpr double kPlain = 0.67;
-constexpr double kClean = 0.2;
+// Of max_misfit: above kMostLeft nothing can be a dot, and above kMostHiding nothing that hides a
+// part of it makes it one; below kPlain it need not be asked whether something is near, and below
+// kClean nothing.
+constexpr double kMostLeft = 3;
+constexpr double kMostHiding = 1.5;
+constexpr double kPlain = 0.8;
+constexpr double kClean = 0.36;
 
 // The pixels of an image are not always square: lengths along x and y are divided by `scale`.
 DotBlobLimits LimitsOf(const DotDetectorOptions& options, const Eigen::Vector2d& scale,
@@ -116,8 +118,11 @@ class DotDetector::Implementation {
         options_.min_contrast, options_.sensitivity * std::sqrt(report_.noise.VarianceAt(0)));
     const DotBlobLimits limits = LimitsOf(options_, scale, least_contrast);
     std::vector<Dot> dots;
-    known_.clear();
+    known_.Clear();
     for (const DotSeed& seed : seeds_) {
+      // What it stands out from by the rows that were read may be more than what surrounds it.
+      constexpr double kLeastSeen = 0.75;
+      if (seed.clearest.contrast < kLeastSeen * limits.least_contrast) break;
       if (static_cast<int>(dots.size()) == options_.most_dots) {
         report_.too_many = true;
         break;
@@ -144,6 +149,7 @@ class DotDetector::Implementation {
   SimdLevel simd_level() const { return scanner_.level(); }
 
  private:
+  // Of the values that dots are fitted to.
   PixelNoise Noise() {
     const double least = reader_.least_variance();
     PixelNoise noise;
@@ -151,12 +157,10 @@ class DotDetector::Implementation {
       reader_.SampleNoise(noise_samples_);
       noise = noise_samples_.Estimate(least);
     }
-    if (!options_.read_noise && !options_.noise_gain) return noise;
-    PixelNoise given = noise;
     if (options_.read_noise)
-      given.read_variance = *options_.read_noise * *options_.read_noise + least;
-    if (options_.noise_gain) given.gain = *options_.noise_gain;
-    return options_.polarity == DotPolarity::kDark ? given.Negative() : given;
+      noise.read_variance = *options_.read_noise * *options_.read_noise + least;
+    if (options_.noise_gain) noise.gain = *options_.noise_gain;
+    return options_.polarity == DotPolarity::kDark ? noise.Negative() : noise;
   }
 
   bool IsWanted(const Eigen::Vector2d& point_px) const {
@@ -188,24 +192,15 @@ class DotDetector::Implementation {
     report_.too_many = true;
   }
 
-  // Whether a pixel is of a blob that has been looked at.
-  bool IsKnown(const Eigen::Vector2d& point_px) const {
-    return std::any_of(known_.begin(), known_.end(), [&](const KnownBlob& known) {
-      const Eigen::Vector2d away = point_px - known.center_px;
-      return away.dot(known.inverse_shape * away) <= 1;
-    });
-  }
-
   std::optional<Dot> Examine(const DotSeed& seed, const DotBlobLimits& limits,
                              const PictureFromImage& picture_from_image) {
-    if (IsKnown(Eigen::Vector2d(seed.clearest.peak_x, seed.clearest.y))) return std::nullopt;
-    const auto blob = finder_.Find(reader_, seed, limits, report_.noise, pixels_);
-    if (!blob || IsKnown(blob->origin_px.cast<double>())) return std::nullopt;
-    known_.push_back({blob->origin_px.cast<double>(), blob->shape_px2.inverse()});
+    auto blob = finder_.Find(reader_, seed, limits, report_.noise, known_, pixels_);
+    if (!blob) return std::nullopt;
+    known_.Add(blob->origin_px, blob->shape_px2);
     ++report_.blobs;
     bool hidden = false;
     const auto fit = Fit(*blob, hidden);
-    if (fit && Confirms(*fit, *blob)) {
+    if (fit) {
       Dot dot = DotOf(*blob, *fit, picture_from_image);
       const Eigen::Vector2d size_px =
           Eigen::Vector2d(reader_.width(), reader_.height()).cwiseProduct(picture_from_image.scale);
@@ -216,28 +211,76 @@ class DotDetector::Implementation {
     return std::nullopt;
   }
 
-  static constexpr double kScale = 0.15;  // of the robust loss, part of the contrast
+  // What a dot leaves of a fit, within its edge.
+  bool Follows(const std::optional<DotFit>& fit, const DotBlob& blob, double part) const {
+    return fit && fit->left <= part * options_.max_misfit && Confirms(*fit, blob);
+  }
 
-  // Robustly where something seems to hide a part, or to be near.
-  std::optional<DotFit> Fit(const DotBlob& blob, bool& hidden) {
+  // As if all were to be seen, evenly lit; else what explains it better: that a part is hidden,
+  // that it is a ball in the light of a lamp, that the ground is uneven, or that something is near.
+  std::optional<DotFit> Fit(DotBlob& blob, bool& hidden) {
     hidden = false;
-    const auto fit = fitter_.Fit(pixels_, blob.start, report_.noise);
-    if (!fit || fit->left > kMostLeft * options_.max_misfit) return std::nullopt;
-    if (fit->left <= kClean * options_.max_misfit) return fit;
+    const auto even = fitter_.Fit(pixels_, blob.start, report_.noise, DotGround::kSupported,
+                                  kMostLeft * options_.max_misfit);
+    if (!even) return std::nullopt;
+    const double clean = kClean * options_.max_misfit;
+    if (Follows(even, blob, kPlain) && even->left_of_all <= clean && even->left <= clean)
+      return even;
+    blob.cut = finder_.FindCut(blob);
+    const bool follows = Follows(even, blob, kPlain);
+    // With a side cut off the even ellipse, and the shaded one too, would lie beside the middle.
+    constexpr double kCutExplains = 0.5;
     if (blob.cut)
-      if (const auto whole = FitWhole(blob); whole && whole->left < fit->left / 2) {
+      if (const auto whole = FitWhole(blob);
+          Follows(whole, blob, 1) && whole->left < kCutExplains * even->left) {
         hidden = true;
         return whole;
       }
-    if (fit->left <= kPlain * options_.max_misfit) return fit;
-    constexpr double kWidening = 6, kLeastHidden = 0.05, kMostHidden = 0.25;
-    const auto robust = fitter_.FitRobustly(pixels_, fit->model, report_.noise, kScale, kWidening);
-    if (robust && robust->disbelieved < kMostHidden &&
-        robust->left < kPlain * options_.max_misfit) {
-      hidden = robust->disbelieved > kLeastHidden;
-      return robust;
+    Eigen::Vector2d doubt_px = Eigen::Vector2d::Zero();
+    if (even->left > clean) {
+      const auto shaded = fitter_.FitShaded(pixels_, even->model, report_.noise);
+      constexpr double kShadeExplains = 0.75;
+      if (shaded && shaded->misfit < kShadeExplains * even->misfit) {
+        if (Follows(shaded, blob, 1)) return shaded;
+        doubt_px = DoubtOf(*even, *shaded);
+      }
     }
-    return fit->left <= options_.max_misfit ? fit : std::nullopt;
+    auto found = follows ? even : FitBeside(blob, *even, hidden);
+    if (found) found->covariance_px2 += doubt_px * doubt_px.transpose();
+    return found;
+  }
+
+  // How far aside the middle of a dot may be where a shade would explain it better, but hardly can
+  // be.
+  static Eigen::Vector2d DoubtOf(const DotFit& even, const DotFit& shaded) {
+    const Eigen::Vector2d aside_px =
+        (shaded.model.ellipse.center_px - even.model.ellipse.center_px).cast<double>();
+    return aside_px / std::max(1.0, aside_px.norm() / RadiusOf(even.model.ellipse));
+  }
+
+  std::optional<DotFit> FitBeside(const DotBlob& blob, const DotFit& even, bool& hidden) {
+    if (auto near = FitNear(blob); Follows(near, blob, 1)) return near;
+    if (auto robust = FitHidden(blob, even, hidden)) return robust;
+    return Follows(even, blob, 1) ? std::optional(even) : std::nullopt;
+  }
+
+  // Without what is not the dot's.
+  std::optional<DotFit> FitHidden(const DotBlob& blob, const DotFit& even, bool& hidden) {
+    if (even.left > kMostHiding * options_.max_misfit) return std::nullopt;
+    constexpr double kScale = 0.15;  // of the robust loss, part of the contrast
+    constexpr double kWidening = 6, kLeastHidden = 0.05, kMostHidden = 0.25;
+    auto robust = fitter_.FitRobustly(pixels_, even.model, report_.noise, kScale, kWidening);
+    if (!Follows(robust, blob, kPlain) || robust->disbelieved >= kMostHidden) return std::nullopt;
+    hidden = robust->disbelieved > kLeastHidden;
+    return robust;
+  }
+
+  // To the ground near the edge alone, where it is more even.
+  std::optional<DotFit> FitNear(const DotBlob& blob) {
+    constexpr double kNear_px = 2;
+    const Eigen::Matrix2d shape = Grown(blob.shape_px2, kNear_px);
+    rest_.CopyWithin(pixels_, blob.start.ellipse.center_px, shape.inverse().cast<float>());
+    return fitter_.Fit(rest_, blob.start, report_.noise, DotGround::kUneven);
   }
 
   // The disc that the blob may be the rest of.
@@ -245,17 +288,56 @@ class DotDetector::Implementation {
     DotModel start = blob.start;
     start.ellipse = blob.cut->whole;
     rest_.CopyBefore(pixels_, blob.cut->direction, blob.cut->limit_px);
-    return fitter_.Fit(rest_, start, report_.noise);
+    auto whole = fitter_.Fit(rest_, start, report_.noise);
+    if (!whole) return std::nullopt;
+    // What is there says enough of what is not: its area, and the middle to a part of the radius.
+    constexpr double kLeastThere = 0.4, kMostUncertain = 0.2;
+    const double radius_px = RadiusOf(whole->model.ellipse);
+    if (std::sqrt(blob.shape_px2.determinant()) < kLeastThere * radius_px * radius_px ||
+        std::sqrt(whole->covariance_px2.trace() / 2) > kMostUncertain * radius_px)
+      return std::nullopt;
+    return whole;
   }
 
   // Whether the fit is one of what was seen: where the edge is not round, contrast and blur may
-  // replace one another.
+  // replace one another, and where the ground is not even, the dot may spread over it.
   bool Confirms(const DotFit& fit, const DotBlob& blob) const {
-    const double part = fit.model.contrast / blob.start.contrast;
+    const DotModel& model = fit.model;
+    const double part = model.contrast / blob.start.contrast;
+    const double seen_px = std::pow(blob.shape_px2.determinant(), 0.25);
+    const bool is_ball = IsBall(model);
+    return part > (is_ball ? 0.4 : 0.7) && part < (blob.saturated ? 5 : 1.5) &&
+           model.ellipse.blur_px <= std::min(options_.max_blur_px, LargestBlur(seen_px) + 0.5) &&
+           (blob.cut || IsThere(model.ellipse, blob, is_ball ? 2.2 : 1.2, is_ball ? 1.2 : 0.25)) &&
+           HasEdgeAllAround(model);
+  }
+
+  static double RadiusOf(const DotEllipse& ellipse) {
+    return 1 / std::sqrt(ellipse.xx * ellipse.yy);
+  }
+
+  // Of a ball what is seen first is the part that the lamp shines on.
+  static bool IsBall(const DotModel& model) {
+    constexpr double kLeastShade = 0.5;
+    return model.shade.norm() > kLeastShade * model.contrast;
+  }
+
+  // growth, move: in radii of what was seen.
+  static bool IsThere(const DotEllipse& ellipse, const DotBlob& blob, double growth, double move) {
+    constexpr double kRoom_px = 0.3;
     const double radius_px = std::pow(blob.shape_px2.determinant(), 0.25);
-    return part > 0.7 && part < (blob.saturated ? 2.5 : 1.5) &&
-           fit.model.ellipse.blur_px <=
-               std::min(options_.max_blur_px, LargestBlur(radius_px) + 0.5);
+    return RadiusOf(ellipse) <= growth * radius_px + kRoom_px &&
+           (ellipse.center_px - blob.start.ellipse.center_px).norm() <= move * radius_px + kRoom_px;
+  }
+
+  // The dark side of a ball may be as dark as the ground; but with few pixels a shade that takes
+  // the edge away turns glints into dots.
+  static bool HasEdgeAllAround(const DotModel& model) {
+    constexpr double kLeastAtEdge = 0.1, kLeastOfLarge = -0.7, kLarge_px = 3.5;
+    const double at_edge =
+        model.contrast - model.shade.head<2>().norm() - 2.0 / 3 * model.shade.z();
+    const double least = RadiusOf(model.ellipse) < kLarge_px ? kLeastAtEdge : kLeastOfLarge;
+    return at_edge >= least * model.contrast;
   }
 
   bool IsDot(const Dot& dot) const {
@@ -265,11 +347,6 @@ class DotDetector::Implementation {
            dot.roundness() >= options_.min_roundness && dot.contrast >= options_.min_contrast &&
            dot.contrast >= options_.sensitivity * noise && IsWanted(dot.center_px);
   }
-
-  struct KnownBlob {
-    Eigen::Vector2d center_px;  // in the image
-    Eigen::Matrix2d inverse_shape;
-  };
 
   DotDetectorOptions options_;
   std::vector<DotRegion> regions_;
@@ -283,7 +360,7 @@ class DotDetector::Implementation {
   DotFitter fitter_;
   std::vector<DotRun> runs_;
   std::vector<DotSeed> seeds_;
-  std::vector<KnownBlob> known_;
+  KnownBlobs known_;
   DotDetectorReport report_;
 };
 

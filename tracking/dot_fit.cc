@@ -4,33 +4,60 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace articap {
 namespace {
 
-enum Parameter { kX, kY, kXx, kXy, kYy, kBlur, kContrast, kBackground, kSlopeX, kSlopeY };
+// The first of each kind; slope, bend and shade are two, two and three.
+enum Parameter {
+  kX,
+  kY,
+  kXx,
+  kXy,
+  kYy,
+  kBlur,
+  kContrast,
+  kBackground,
+  kSlope,
+  kBend = kSlope + 2,
+  kShade = kBend + 2,
+  kShadeOfHeight = kShade + 2
+};
 
 // A pixel's own square has an SD of 1/sqrt(12) px, which no lens undercuts.
 constexpr double kLeastBlur_px = 0.289;
 constexpr int kMostSteps = 8;
 constexpr int kMostRobustSteps = 2;  // at each width of the loss
+// The square of the last step, which is taken without another look at the pixels, in units of the
+// standard deviations that the misfit makes likely; where the ground is looked at next, of a step
+// that is made good there.
+constexpr double kArrived2 = 0.5;
+constexpr double kNear2 = 4;
 
-using Parameters = Eigen::Matrix<double, 10, 1>;
+constexpr int kNum = DotEquations::kNumParameters;
+using Parameters = Eigen::Matrix<double, kNum, 1>;
+using Normal = DotEquations::Normal;
+// Of some of the parameters.
+using SomeByAll = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kNum, kNum>;
+using Some = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kNum, 1>;
 
 Parameters Pack(const DotModel& model) {
   const DotEllipse& dot = model.ellipse;
   Parameters at;
   at << dot.center_px.cast<double>(), dot.xx, dot.xy, dot.yy, dot.blur_px, model.contrast,
-      model.background, model.slope_per_px;
+      model.background, model.slope_per_px, model.bend_per_px2, model.shade;
   return at;
 }
 
 DotModel Unpack(const Parameters& at) {
-  const Eigen::Matrix<float, 10, 1> values = at.cast<float>();
+  const Eigen::Matrix<float, kNum, 1> values = at.cast<float>();
   return {{values.head<2>(), values[kXx], values[kXy], values[kYy], values[kBlur]},
           at[kContrast],
           at[kBackground],
-          at.tail<2>()};
+          at.segment<2>(kSlope),
+          at.segment<2>(kBend),
+          at.segment<3>(kShade)};
 }
 
 // Steps that would leave what a dot can be end at its border.
@@ -43,128 +70,227 @@ void KeepPossible(double largest_px, Parameters& at) {
   at[kY] = std::clamp(at[kY], -largest_px, largest_px);
 }
 
-// By how much chi^2 would fall if the parameters behind the first `held_from` were free too.
-double GainOfFreeing(const Eigen::Matrix<double, 11, 11>& normal, int held_from) {
-  const int added = 10 - held_from;
-  const Eigen::MatrixXd across = normal.block(0, held_from, held_from, added);
-  const Eigen::MatrixXd schur =
-      normal.block(held_from, held_from, added, added) -
-      across.transpose() * normal.topLeftCorner(held_from, held_from).ldlt().solve(across);
-  const Eigen::VectorXd gradient = normal.col(10).segment(held_from, added);
-  return gradient.dot(schur.ldlt().solve(gradient));
-}
-
-Eigen::VectorXd DampedStep(const Eigen::Matrix<double, 11, 11>& normal, int free, double damping) {
-  Eigen::MatrixXd damped = normal.topLeftCorner(free, free);
+// Of the first `kFree` parameters.
+template <int kFree>
+Some DampedStepOf(const Normal& normal, double damping) {
+  Eigen::Matrix<double, kFree, kFree> damped = normal.topLeftCorner<kFree, kFree>();
   damped.diagonal() *= 1 + damping;
   damped.diagonal().array() += 1e-12 * damped.diagonal().maxCoeff();
-  return damped.ldlt().solve(normal.col(10).head(free));
+  const Eigen::Matrix<double, kFree, 1> side = normal.col(kNum).head<kFree>();
+  return damped.llt().solve(side);
 }
 
-// What the equations will be after a small step.
-void Advance(const Eigen::VectorXd& step, Eigen::Matrix<double, 11, 11>& normal) {
-  const auto gradient = normal.col(10).head(step.size());
-  const double fall = step.dot(gradient);
-  normal.col(10).head<10>() -= normal.topLeftCorner(10, step.size()) * step;
-  normal(10, 10) -= fall;
+Some DampedStep(const Normal& normal, int free, double damping) {
+  switch (free) {
+    case DotEquations::kNumEven:
+      return DampedStepOf<DotEquations::kNumEven>(normal, damping);
+    case kBend:
+      return DampedStepOf<kBend>(normal, damping);
+    case kShade:
+      return DampedStepOf<kShade>(normal, damping);
+    case kShadeOfHeight:
+      return DampedStepOf<kShadeOfHeight>(normal, damping);
+    default:
+      return DampedStepOf<kNum>(normal, damping);
+  }
+}
+
+// What chi^2 is by noise alone a pixel, as the variances have more in them.
+double ExpectedOf(const DotEquations::Own& own, double model_variance) {
+  return 1 - model_variance * own.weight / own.count;
+}
+
+// Root mean square of what the noise does not explain, over the contrast.
+double LeftOf(const DotEquations::Own& own, double model_variance, double contrast) {
+  const double expected = own.count * ExpectedOf(own, model_variance);
+  return std::sqrt(std::max(0.0, own.chi2 - expected) / own.weight) / contrast;
 }
 
 }  // namespace
 
 std::optional<DotFit> DotFitter::Fit(const DotPixels& pixels, const DotModel& start,
-                                     const PixelNoise& noise) {
-  pixels_ = &pixels;
-  noise_ = noise;
-  largest_px_ = std::sqrt(pixels.count());
-  steps_ = 0;
-  Parameters at = Pack(start);
-  Normal normal;
-  const int free = MinimiseAll(Weights::kByModel, at, normal);
-  return Conclude(at, normal, free);
+                                     const PixelNoise& noise, DotGround ground, double most_left) {
+  State state;
+  Start(pixels, start, noise, state);
+  if (ground == DotGround::kUneven) state.free = kShade;
+  Minimise(Weights::kByModel, ground == DotGround::kSupported ? kNear2 : kArrived2, kMostSteps,
+           state);
+  if (!(LeftOf(state.own, model_variance_, state.at[kContrast]) <= most_left)) return std::nullopt;
+  Extend(kMostSteps, state);
+  return Conclude(state);
+}
+
+std::optional<DotFit> DotFitter::FitShaded(const DotPixels& pixels, const DotModel& start,
+                                           const PixelNoise& noise) {
+  State state;
+  Start(pixels, start, noise, state);
+  state.free = kNum;
+  Evaluate(Weights::kByModel, state);
+  constexpr double kMostSaturated = 0.3;
+  if (pixels.num_saturated() > kMostSaturated * state.own.count) return std::nullopt;
+  // Of chi^2, by the first step: where it is less, the rest of the way has been in vain.
+  constexpr double kLeastFall = 0.1;
+  const Some step = DampedStep(state.normal, kNum, 0);
+  if (!(step.dot(state.normal.col(kNum).head<kNum>()) > kLeastFall * state.normal(kNum, kNum)))
+    return std::nullopt;
+  const State even = state;
+  Descend(true, kArrived2, kMostSteps, state);
+  // Nothing is darker in its middle.
+  if (state.at[kShadeOfHeight] < 0) {
+    state = even;
+    state.free = kShadeOfHeight;
+    Descend(true, kArrived2, kMostSteps, state);
+  }
+  return Conclude(state);
 }
 
 std::optional<DotFit> DotFitter::FitRobustly(const DotPixels& pixels, const DotModel& start,
                                              const PixelNoise& noise, double scale,
                                              double widening) {
-  pixels_ = &pixels;
-  noise_ = noise;
-  largest_px_ = std::sqrt(pixels.count());
-  steps_ = 0;
-  Parameters at = Pack(start);
-  Normal normal;
-  int free = kWithoutSlope;
+  State state;
+  Start(pixels, start, noise, state);
   constexpr int kPasses = 5;
   for (int pass = 0; pass < kPasses; ++pass, widening = std::max(1.0, widening / 2)) {
-    At(at, Weights::kByLoss, widening * scale * at[kContrast]);
-    free = MinimiseAll(Weights::kKept, at, normal);
+    Evaluate(Weights::kByLoss, state, widening * scale * state.at[kContrast]);
+    Descend(false, kArrived2, kMostRobustSteps, state);
+    if (pass == kPasses - 1) Extend(kMostRobustSteps, state);
   }
-  std::optional<DotFit> fit = Conclude(at, normal, free);
+  std::optional<DotFit> fit = Conclude(state);
   if (fit) fit->disbelieved = equations_.disbelieved();
   return fit;
 }
 
-DotFitter::Normal DotFitter::At(const Parameters& parameters, Weights weights, double scale) {
-  return equations_.At(*pixels_, Unpack(parameters), noise_, weights, scale);
+void DotFitter::Start(const DotPixels& pixels, const DotModel& start, const PixelNoise& noise,
+                      State& state) {
+  pixels_ = &pixels;
+  noise_ = noise;
+  // What the profile itself may be off (dot_profile.h): where there is little noise, the foot of
+  // the edge must not decide alone.
+  constexpr double kProfileError = 0.004;
+  model_variance_ = std::pow(kProfileError * start.contrast, 2);
+  noise_.read_variance += model_variance_;
+  largest_px_ = std::sqrt(pixels.count());
+  steps_ = 0;
+  state.at = Pack(start);
+  state.free = !start.shade.isZero(0)          ? kNumParameters
+               : !start.bend_per_px2.isZero(0) ? kShade
+               : !start.slope_per_px.isZero(0) ? kBend
+                                               : kEven;
 }
 
-DotFitter::Normal DotFitter::Minimise(int free, Weights weights, Parameters& at) {
-  Normal normal = At(at, weights);
-  bool weighs = weights == Weights::kByModel;
-  const int most_steps = weighs ? kMostSteps : kMostRobustSteps;
-  double damping = 1e-3;
+void DotFitter::Evaluate(Weights weights, State& state, double scale) {
+  const auto terms = state.free == kEven    ? DotEquations::Terms::kEven
+                     : state.free <= kShade ? DotEquations::Terms::kGround
+                                            : DotEquations::Terms::kAll;
+  state.normal = equations_.At(*pixels_, Unpack(state.at), noise_, terms, weights, scale);
+  state.own = equations_.own();
+  // Where the range cuts the dot off, blur, contrast and size may replace one another: what is
+  // usual decides.
+  if (pixels_->num_saturated() == 0) return;
+  constexpr double kUsualBlur_px = 0.75, kBlurSigma_px = 0.1;
+  const double misfit = std::max(1.0, state.normal(kNum, kNum) / pixels_->count());
+  const double information = misfit / (kBlurSigma_px * kBlurSigma_px);
+  const double apart = kUsualBlur_px - state.at[kBlur];
+  state.normal(kBlur, kBlur) += information;
+  state.normal(kBlur, kNum) += information * apart;
+  state.normal(kNum, kBlur) += information * apart;
+  state.normal(kNum, kNum) += information * apart * apart;
+}
+
+void DotFitter::Minimise(Weights weights, double arrived2, int most_steps, State& state) {
+  Evaluate(weights, state);
+  Descend(weights == Weights::kByModel, arrived2, most_steps, state);
+}
+
+void DotFitter::Descend(bool weighs, double arrived2, int most_steps, State& state) {
+  double damping = state.free > kShade ? 1e-2 : 1e-3;
+  State other;
+  State *now = &state, *next = &other;
   for (int tried = 0; tried < most_steps; ++tried, ++steps_) {
-    const Eigen::VectorXd step = DampedStep(normal, free, damping);
-    Parameters next = at;
-    next.head(free) += step;
-    KeepPossible(largest_px_, next);
-    const double chi2 = normal(kNumParameters, kNumParameters);
-    // In units of the standard deviations that the misfit makes likely.
-    constexpr double kArrived2 = 0.02;
-    const double moved2 = step.dot(normal.topLeftCorner(free, free) * step);
-    if (!(moved2 > kArrived2 * std::max(1.0, chi2 / pixels_->count()))) {
-      at = next;
-      Advance(step, normal);
+    const Some step = DampedStep(now->normal, now->free, damping);
+    next->at = now->at;
+    next->free = now->free;
+    next->at.head(now->free) += step;
+    KeepPossible(largest_px_, next->at);
+    const double chi2 = now->normal(kNum, kNum);
+    const double fall = step.dot(now->normal.col(kNum).head(now->free));
+    const double moved2 =
+        fall - damping * step.cwiseAbs2().dot(now->normal.diagonal().head(now->free));
+    if (!(moved2 > arrived2 * std::max(1.0, chi2 / pixels_->count()))) {
+      now->at = next->at;
+      now->normal(kNum, kNum) -= fall;
       break;
     }
-    const Normal at_next = At(next, weighs ? Weights::kByModel : Weights::kKept);
+    Evaluate(weighs ? Weights::kByModel : Weights::kKept, *next);
     // Other weights change chi^2 a little.
-    if (at_next(kNumParameters, kNumParameters) <= (weighs ? 1.5 : 1.0) * chi2) {
-      at = next;
-      normal = at_next;
+    if (next->normal(kNum, kNum) <= (weighs ? 1.5 : 1.0) * chi2) {
+      // What is far from the model by other things than noise is not worth small steps.
+      constexpr double kWorthwhile = 0.01, kFar = 2;
+      const bool is_worthwhile = weighs || next->normal(kNum, kNum) < (1 - kWorthwhile) * chi2 ||
+                                 chi2 < kFar * pixels_->count();
+      std::swap(now, next);
+      if (!is_worthwhile) break;
       damping *= 0.1;
       weighs = false;
     } else {
-      damping *= 10;
-      if (damping > 1e8) break;
+      damping = std::max(10 * damping, 0.01);
     }
   }
-  return normal;
+  if (now != &state) state = *now;
 }
 
-int DotFitter::MinimiseAll(Weights weights, Parameters& at, Normal& normal) {
-  const int free = at.tail<2>().isZero(0) ? kWithoutSlope : kNumParameters;
-  normal = Minimise(free, weights, at);
-  if (free == kNumParameters) return free;
-  constexpr double kSupported = 12;
-  const double misfit = normal(kNumParameters, kNumParameters) / pixels_->count();
-  if (GainOfFreeing(normal, kWithoutSlope) <= kSupported * std::max(1.0, misfit)) return free;
-  normal = Minimise(kNumParameters, Weights::kKept, at);
-  return kNumParameters;
+void DotFitter::Extend(int most_steps, State& state) {
+  if (state.free >= kShade) return;
+  State more = state;
+  more.free = kShade;
+  Evaluate(Weights::kKept, more);
+  more.free = SupportedBy(more, state.free);
+  Descend(more.free != state.free, kArrived2, most_steps, more);
+  state = more;
 }
 
-std::optional<DotFit> DotFitter::Conclude(const Parameters& at, const Normal& normal,
-                                          int free) const {
-  const int freedom = pixels_->count() - free;
-  if (freedom < 1 || !at.allFinite() || at[kContrast] <= 0) return std::nullopt;
+int DotFitter::SupportedBy(const State& all, int free) const {
+  // What chi^2 falls by, in misfits.
+  constexpr double kSlopeSupported = 12, kBendSupported = 16;
+  const double misfit =
+      std::max({1.0, all.normal(kNum, kNum) / pixels_->count(), all.own.chi2 / all.own.count});
+  // With J^T W J = L L^T, each parameter that is freed after those before it lowers chi^2 by the
+  // square of its component of L^-1 J^T W r.
+  const Eigen::LLT<Eigen::Matrix<double, kShade, kShade>> triangle(
+      all.normal.topLeftCorner<kShade, kShade>());
+  if (triangle.info() != Eigen::Success) return free;
+  const Eigen::Matrix<double, kShade, 1> falls =
+      triangle.matrixL().solve(all.normal.col(kNum).head<kShade>());
+  const auto gain = [&](int begin, int end) {
+    begin = std::max(begin, free);
+    return begin < end ? falls.segment(begin, end - begin).squaredNorm() / misfit : 0.0;
+  };
+  if (gain(kBend, kShade) > kBendSupported) return kShade;
+  return gain(kSlope, kBend) > kSlopeSupported ? kBend : free;
+}
+
+std::optional<DotFit> DotFitter::Conclude(const State& state) const {
+  const int freedom = pixels_->count() - state.free;
+  const double contrast = state.at[kContrast];
+  if (freedom < 1 || !state.at.allFinite() || contrast <= 0) return std::nullopt;
   DotFit fit;
-  fit.model = Unpack(at);
+  fit.model = Unpack(state.at);
   fit.steps = steps_;
-  fit.misfit = normal(kNumParameters, kNumParameters) / freedom;
-  const double unexplained = std::max(0.0, fit.misfit - 1) * freedom;
-  fit.left = std::sqrt(unexplained / normal(kBackground, kBackground)) / at[kContrast];
-  const Eigen::MatrixXd covariance =
-      normal.topLeftCorner(free, free).ldlt().solve(Eigen::MatrixXd::Identity(free, 2));
-  fit.covariance_px2 = std::max(1.0, fit.misfit) * covariance.topRows<2>();
+  const double chi2 = state.normal(kNum, kNum);
+  // Of all pixels, and of the dot's own, which tell where it is: where dots alone are bright, the
+  // picture tells little of the noise that bright pixels have.
+  const double count = pixels_->count(), per_freedom = count / freedom;
+  const DotEquations::Own all = {count, state.normal(kBackground, kBackground), chi2 * per_freedom};
+  fit.left = LeftOf(state.own, model_variance_, contrast);
+  fit.left_of_all = LeftOf(all, model_variance_, contrast);
+  fit.misfit = all.chi2 / count / ExpectedOf(all, model_variance_);
+  const double scatter = std::max({ExpectedOf(state.own, model_variance_), all.chi2 / count,
+                                   state.own.chi2 / state.own.count * per_freedom});
+  const Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kNum, 2> covariance =
+      SomeByAll(state.normal.topLeftCorner(state.free, state.free))
+          .llt()
+          .solve(SomeByAll(SomeByAll::Identity(state.free, 2)));
+  fit.covariance_px2 = scatter * covariance.topRows<2>();
   if (!fit.covariance_px2.allFinite() || fit.covariance_px2.diagonal().minCoeff() <= 0)
     return std::nullopt;
   return fit;

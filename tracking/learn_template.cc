@@ -25,6 +25,8 @@ constexpr double kLayoutSigma_mm = 8;
 // What is assumed of a marker before a take has shown how it moves.
 constexpr double kRigidSigma_mm = 1;
 constexpr double kFaceSigma_mm = 5;
+// Samples of a marker that tell its place.
+constexpr std::size_t kFewest = 20;
 
 struct ReferenceFit {
   FoundHead head;
@@ -217,6 +219,28 @@ std::vector<Eigen::Vector3d> FoundPlaces(const PointClouds& clouds, const Labell
   return places;
 }
 
+// Of a take that is long enough, the markers that it hardly shows where the reference frame has
+// them: what was found there was something else.
+std::vector<int> LostMarkers(const PointClouds& clouds, const Labelling& labelling) {
+  std::vector<int> lost;
+  if (static_cast<std::size_t>(clouds.num_frames()) < 2 * kFewest) return lost;
+  const auto num_markers = static_cast<int>(labelling.frames.front().points.size());
+  for (int marker = 0; marker < num_markers; ++marker)
+    if (FoundPlaces(clouds, labelling, marker, 1).size() < kFewest) lost.push_back(marker);
+  return lost;
+}
+
+MarkerTemplate WithLayoutPlaces(MarkerTemplate marker_template, const ReferenceFit& fit,
+                                const std::vector<int>& markers) {
+  for (const int m : markers) {
+    TemplateMarker& marker = marker_template.markers[m];
+    marker.position_mm = fit.places[m].position_mm;
+    marker.sigma_mm = kLayoutSigma_mm;
+    marker.unmeasured_mm.setZero();
+  }
+  return marker_template;
+}
+
 }  // namespace
 
 Result<MarkerTemplate> LayoutOf(const MarkerSet& set) {
@@ -276,14 +300,18 @@ Result<MarkerTemplate> LearnTemplate(const PointClouds& clouds, const MarkerTemp
   const auto fit = SearchReference(clouds, layout, frames, attitudes, options);
   if (const auto clear = RefuseDoubtful(fit, layout); !clear) return tl::unexpected(clear.error());
   const MarkerTemplate first = TemplateOf(clouds, layout, *fit);
-  return RefineTemplate(first, clouds, LabelClouds(clouds, first, options));
+  const Labelling labelling = LabelClouds(clouds, first, options);
+  const MarkerTemplate refined = RefineTemplate(first, clouds, labelling);
+  const std::vector<int> lost = LostMarkers(clouds, labelling);
+  if (lost.empty()) return refined;
+  const MarkerTemplate again = WithLayoutPlaces(refined, *fit, lost);
+  return RefineTemplate(again, clouds, LabelClouds(clouds, again, options));
 }
 
 MarkerTemplate RefineTemplate(const MarkerTemplate& marker_template, const PointClouds& clouds,
                               const Labelling& labelling) {
   // A take of a few sentences does not show all that a face can do.
   constexpr double kLeastSigma_mm = 0.5, kLeastFaceSigma_mm = 2;
-  constexpr std::size_t kFewest = 20;
   MarkerTemplate refined = marker_template;
   for (int m = 0; m < static_cast<int>(refined.markers.size()); ++m) {
     TemplateMarker& marker = refined.markers[m];

@@ -31,8 +31,10 @@ std::vector<Eigen::Quaterniond> LikelyAttitudes(const CameraArray& array);
 // only roughly (typical ones, or clicked). In the frames of `frames` the head is looked for, in any
 // of the attitudes and in three sizes; the layout is bent onto the best one; the take is
 // labelled with what was found, and the places and how far each marker strays from them are
-// measured in it. The template's axes are those of the stage. Refused, with what was found instead,
-// where too few markers are found, or where another pose explains the frame nearly as well.
+// measured in it; markers that the take hardly shows where that frame has them go back to the
+// layout's places, and it is labelled once more. The template's axes are those of the stage.
+// Refused, with what was found instead, where too few markers are found, or where another pose
+// explains the frame nearly as well.
 Result<MarkerTemplate> LearnTemplate(const PointClouds& clouds, const MarkerTemplate& layout,
                                      std::span<const int> frames,
                                      std::span<const Eigen::Quaterniond> attitudes,

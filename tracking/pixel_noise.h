@@ -20,24 +20,27 @@ struct PixelNoise {
   PixelNoise Negative() const { return {read_variance + gain, -gain}; }
 };
 
-// Samples all over a picture, from which its noise is told. In each range of brightness the
-// smallest 60 % of the bends count, since edges and texture are rarer than plain surface; through
-// the ranges goes the line read_variance + gain * value.
+// Samples all over a picture, from which its noise is told: rows of pixels, each short enough to be
+// either plain surface or not. In each range of brightness the rows count that bend no more than
+// the plainest ones do, up to what chance makes of it: edges and texture are left out as long as a
+// quarter of the rows are plain. Through the ranges goes the line read_variance + gain * value; a
+// single one is taken to have the noise of photons.
 class NoiseSamples {
  public:
+  static constexpr int kLength = 32;  // of a row, px
+
   void Clear();
-  // A pixel and its two neighbours in the row.
-  void Add(float left, float middle, float right);
+  // The light of `count` pixels side by side, at least three.
+  void Add(const float* values, int count);
   // Nothing is below least_variance, that of rounding.
   PixelNoise Estimate(double least_variance);
 
  private:
   static constexpr int kRanges = 16;
-  // Of a range of brightness. A bend is twice the pixel less both of its neighbours: its variance
-  // is six times that of a pixel.
+  // Of a range of brightness.
   struct Range {
-    std::vector<float> bends;
-    double values = 0;  // sum
+    std::vector<float> variances;  // of a pixel, by each row
+    double values = 0;             // sum of the rows' means
   };
   std::array<Range, kRanges> ranges_;
 };

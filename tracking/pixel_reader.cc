@@ -2,14 +2,12 @@
 #include "tracking/pixel_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
 namespace articap {
 namespace {
-
-// A little less than the last code of 8 bits, and what cameras of 10 or 12 bits end at in 16.
-constexpr float kSaturation = 0.998f;
 
 std::uint16_t Code16(const ImageView& image, int x, int y) {
   std::uint16_t code = 0;
@@ -80,18 +78,10 @@ void PixelReader::SetTables() {
   }
 }
 
-float PixelReader::Value(int x, int y) const {
-  switch (image_.format) {
-    case PixelFormat::kGray8:
-      return gray_[image_.row(y)[x]];
-    case PixelFormat::kGray16:
-      return gray_[Code16(image_, x, y)];
-    case PixelFormat::kRgb8: {
-      const std::uint8_t* rgb = Rgb(image_, x, y);
-      return color_[0][rgb[0]] + color_[1][rgb[1]] + color_[2][rgb[2]];
-    }
-  }
-  return 0;
+float PixelReader::ValueOfOthers(int x, int y) const {
+  if (is_16_bit()) return gray_[Code16(image_, x, y)];
+  const std::uint8_t* rgb = Rgb(image_, x, y);
+  return color_[0][rgb[0]] + color_[1][rgb[1]] + color_[2][rgb[2]];
 }
 
 void PixelReader::ReadValues(int x, int y, int count, float* values) const {
@@ -103,8 +93,7 @@ void PixelReader::ReadValues(int x, int y, int count, float* values) const {
   for (int i = 0; i < count; ++i) values[i] = Value(x + i, y);
 }
 
-bool PixelReader::IsSaturated(int x, int y) const {
-  if (image_.format != PixelFormat::kRgb8) return Value(x, y) >= kSaturation;
+bool PixelReader::IsColorSaturated(int x, int y) const {
   const std::uint8_t* rgb = Rgb(image_, x, y);
   for (int channel = 0; channel < 3; ++channel)
     if (rgb[channel] == (weights_[channel] > 0 ? 255 : 0) && std::abs(weights_[channel]) > 0.2f)
@@ -139,15 +128,23 @@ template void PixelReader::ReadRow(int y, std::uint16_t* row) const;
 
 void PixelReader::SampleNoise(NoiseSamples& samples) const {
   samples.Clear();
-  constexpr int kRows = 24, kColumns = 256;
+  constexpr int kRows = 24, kColumns = 24, kLength = NoiseSamples::kLength;
+  const int length = std::min(kLength, image_.width);
+  if (length < 3) return;
   const int step_y = std::max(1, image_.height / kRows);
-  const int step_x = std::max(1, image_.width / kColumns);
+  const int step_x = std::max(length, image_.width / kColumns);
+  std::array<float, kLength> values;
   for (int y = step_y / 2; y < image_.height; y += step_y)
-    for (int x = 1 + step_x / 2; x + 1 < image_.width; x += step_x) {
-      const float left = Value(x - 1, y), middle = Value(x, y), right = Value(x + 1, y);
+    for (int x = 0; x + length <= image_.width; x += step_x) {
+      ReadValues(x, y, length, values.data());
       // At the ends of the range values do not scatter.
-      const auto [least, most] = std::minmax({left, middle, right});
-      if (least > 1 - kSaturation && most < kSaturation) samples.Add(left, middle, right);
+      const auto at_ends = std::count_if(values.begin(), values.begin() + length, [](float value) {
+        return value <= 1 - kSaturation || value >= kSaturation;
+      });
+      if (10 * at_ends > length) continue;
+      if (values_.dark_dots)
+        for (float& value : values) value = 1 - value;
+      samples.Add(values.data(), length);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "tests/support/face_dots.h"
 #include "tests/tracking/dot_picture.h"
 
 namespace articap {
@@ -238,6 +239,21 @@ TEST(DotDetectorTest, TooManyDotsAreSaid) {
   DotDetector all(options);
   EXPECT_THAT(all.Detect(image.view(), {}), SizeIs(39 * 39));
   EXPECT_FALSE(all.report().too_many);
+}
+
+TEST(DotDetectorTest, AFaceHasNoOtherDotsThanItsMarkers) {
+  DotDetectorOptions options;
+  options.min_diameter_px = 6;
+  options.max_diameter_px = 22;
+  options.min_contrast = 0.2;
+  options.max_blur_px = 1;
+  DotDetector detector(options);
+  DotScore score;
+  for (const FaceDotPicture& picture : RenderFaceDots({.pictures = 2, .seed = 2}))
+    score.Add(picture, CentersOf(detector.Detect(picture.image.view(), {})));
+  EXPECT_GT(score.clear, 20);
+  EXPECT_EQ(score.found, score.clear);
+  EXPECT_EQ(score.wrong, 0);
 }
 
 TEST(DotDetectorTest, OptionsThatCannotBeAreRefused) {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/test_data.h"
 #include "tests/tracking/speaker_dots.h"
 
@@ -43,6 +45,41 @@ TEST(LearnTemplateTest, FromTypicalPlacesAlone) {
     EXPECT_GE(score.right, 0.998 * score.labelled);
     EXPECT_GE(score.labelled, 0.97 * score.seen);
   }
+}
+
+// Of a marker the frame that the template starts from shows nothing but a false dot, in one view.
+TEST(LearnTemplateTest, AFalseDotInTheFirstFrameIsForgotten) {
+  SpeakerDots scene = MakeSpeakerDots(FourCameras(1));
+  const auto stud = static_cast<int>(
+      std::find(scene.names.begin(), scene.names.end(), "spectacles_1") - scene.names.begin());
+  bool has_false_dot = false;
+  for (std::size_t camera = 0; camera < scene.dots[0].size(); ++camera) {
+    auto& owners = scene.owners[0][camera];
+    const auto owner = std::find(owners.begin(), owners.end(), stud);
+    if (owner == owners.end()) continue;
+    const auto index = owner - owners.begin();
+    if (!has_false_dot) {
+      scene.dots[0][camera][index].center_px += Eigen::Vector2d(-30, 0);
+      *owner = -1;
+      has_false_dot = true;
+    } else {
+      scene.dots[0][camera].erase(scene.dots[0][camera].begin() + index);
+      owners.erase(owner);
+    }
+  }
+  ASSERT_TRUE(has_false_dot);
+  const PointClouds clouds = CloudsOf(scene);
+  const std::vector<int> frames = {0};
+  const auto learnt = LearnTemplate(clouds, LayoutOfMap("spectacles30"), frames,
+                                    LikelyAttitudes(scene.cameras.array), {});
+  ASSERT_TRUE(learnt) << learnt.error().message;
+  const Labelling labelling = LabelClouds(clouds, *learnt, {});
+  int labelled = 0;
+  for (int frame = 0; frame < clouds.num_frames(); ++frame) {
+    const CloudPoint* const point = LabelledPoint(clouds, labelling, frame, stud);
+    labelled += point && scene.OwnerOf(frame, *point) == stud ? 1 : 0;
+  }
+  EXPECT_GE(labelled, 0.95 * clouds.num_frames());
 }
 
 TEST(LearnTemplateTest, SixMarkersInAMirror) {
