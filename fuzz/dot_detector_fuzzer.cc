@@ -14,7 +14,7 @@ articap::DotDetectorOptions OptionsOf(std::uint8_t choice, std::uint8_t size) {
       (choice & 1) != 0 ? articap::DotPolarity::kDark : articap::DotPolarity::kBright;
   options.tone = (choice & 2) != 0 ? articap::DotTone::kSrgb : articap::DotTone::kLinear;
   if ((choice & 4) != 0) options.color = "#30a0e0";
-  if ((choice & 8) != 0) options.regions = {"1,1 30,2 20,40"};
+  if ((choice & 8) != 0) options.regions = {"1:1 30:2 20:40"};
   if ((choice & 16) != 0) options.min_contrast = 0.01;
   options.min_diameter_px = 2 + size % 8;
   options.max_diameter_px = options.min_diameter_px + size;

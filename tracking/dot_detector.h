@@ -47,7 +47,7 @@ struct DotDetectorOptions {
   // the full range; not given: from the picture itself.
   std::optional<double> read_noise;
   std::optional<double> noise_gain;
-  // Where dots may be: polygons of the camera's picture, each "x,y x,y x,y ...", px. None:
+  // Where dots may be: polygons of the camera's picture, each "x:y x:y x:y ...", px. None:
   // everywhere.
   std::vector<std::string> regions;
   int most_dots = 500;  // the clearest ones are kept

@@ -35,7 +35,7 @@ void VisitOptions(DotDetectorOptions& options, OptionVisitor& visit) {
   visit("noise_gain", options.noise_gain,
         "variance that light adds per light, parts of the full range; not given: from the picture");
   visit("regions", options.regions,
-        "where dots may be, polygons \"x,y x,y x,y\" of the picture, px; none: everywhere");
+        "where dots may be, polygons \"x:y x:y x:y\" of the picture, px; none: everywhere");
   visit("most_dots", options.most_dots, "in one picture; the clearest are kept");
 }
 
@@ -89,15 +89,15 @@ Result<DotRegion> ParseRegion(const std::string& text) {
   std::string corner;
   while (corners >> corner) {
     double x = 0, y = 0;
-    char comma = 0, rest = 0;
+    char colon = 0, rest = 0;
     std::istringstream numbers(corner);
-    if (!(numbers >> x >> comma >> y) || comma != ',' || numbers >> rest)
-      return Fail(fmt::format("region \"{}\": \"{}\" is no corner; write x,y in px", text, corner));
+    if (!(numbers >> x >> colon >> y) || colon != ':' || numbers >> rest)
+      return Fail(fmt::format("region \"{}\": \"{}\" is no corner; write x:y in px", text, corner));
     region.corners_px.emplace_back(x, y);
   }
   if (region.corners_px.size() < 3)
     return Fail(
-        fmt::format("region \"{}\": a polygon has three corners or more, x,y each, with "
+        fmt::format("region \"{}\": a polygon has three corners or more, x:y each, with "
                     "spaces between them",
                     text));
   return region;

@@ -168,7 +168,7 @@ TEST(DotDetectorTest, RegionsKeepTheRestOut) {
   light.Add(PaintedDot::Disc({120.3, 30}, 10));
   const Image image = TakePicture(light, {}, random);
   DotDetectorOptions options;
-  options.regions = {"100,0 159,0 159,63 100,63"};
+  options.regions = {"100:0 159:0 159:63 100:63"};
   const auto dots = DotDetector(options).Detect(image.view(), {});
   ASSERT_THAT(dots, SizeIs(1));
   EXPECT_GT(dots[0].center_px.x(), 100);
@@ -268,9 +268,9 @@ TEST(DotDetectorTest, OptionsThatCannotBeAreRefused) {
               HasSubstr("the smaller one first"));
   EXPECT_THAT(fault([](DotDetectorOptions& options) { options.color = "blue"; }),
               HasSubstr("#rrggbb"));
-  EXPECT_THAT(fault([](DotDetectorOptions& options) { options.regions = {"1,2 3,4"}; }),
+  EXPECT_THAT(fault([](DotDetectorOptions& options) { options.regions = {"1:2 3:4"}; }),
               HasSubstr("three corners"));
-  EXPECT_THAT(fault([](DotDetectorOptions& options) { options.regions = {"1,2 3;4 5,6"}; }),
+  EXPECT_THAT(fault([](DotDetectorOptions& options) { options.regions = {"1:2 3;4 5:6"}; }),
               HasSubstr("\"3;4\" is no corner"));
   EXPECT_THAT(fault([](DotDetectorOptions& options) { options.min_roundness = 1.5; }),
               HasSubstr("a circle has 1"));
